@@ -1,0 +1,38 @@
+# One library per engine folder, each with an include path of its own, so that including a folder one does not link does
+# not compile.
+#
+#   steerstat_room(NAME [SOURCES file...] [USES room...] [LIBRARIES target...])
+#
+# SOURCES  .cpp files; none makes a header-only room
+# USES     rooms whose headers it may include, passed on to those that use it
+# LIBRARIES  third-party targets its sources need, not passed on
+function(steerstat_room name)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;USES;LIBRARIES" ${ARGN})
+  # "name/header.hpp" resolves through a link that holds this folder alone.
+  set(path ${CMAKE_BINARY_DIR}/include/${name})
+  file(MAKE_DIRECTORY ${path})
+  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${path}/${name} SYMBOLIC)
+  list(TRANSFORM ROOM_USES PREPEND steerstat::)
+  if(ROOM_SOURCES)
+    add_library(steerstat_${name} STATIC ${ROOM_SOURCES})
+    target_include_directories(steerstat_${name} PUBLIC ${path})
+    target_link_libraries(steerstat_${name} PUBLIC ${ROOM_USES} PRIVATE steerstat_flags ${ROOM_LIBRARIES})
+  else()
+    add_library(steerstat_${name} INTERFACE)
+    target_include_directories(steerstat_${name} INTERFACE ${path})
+    target_link_libraries(steerstat_${name} INTERFACE ${ROOM_USES})
+  endif()
+  add_library(steerstat::${name} ALIAS steerstat_${name})
+endfunction()
+
+# The tests of a room: an executable test_NAME of GoogleTest cases, each a CTest case.
+#
+#   steerstat_test(NAME SOURCES file... [USES room...] [LIBRARIES target...])
+function(steerstat_test name)
+  cmake_parse_arguments(TEST "" "" "SOURCES;USES;LIBRARIES" ${ARGN})
+  list(TRANSFORM TEST_USES PREPEND steerstat::)
+  add_executable(test_${name} ${TEST_SOURCES})
+  target_link_libraries(test_${name} PRIVATE ${TEST_USES} ${TEST_LIBRARIES} steerstat_flags GTest::gmock_main)
+  target_compile_definitions(test_${name} PRIVATE STEERSTAT_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
+  gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+endfunction()

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <array>
+
+namespace steerstat {
+
+/// Coefficients of (11) in powers of lambda = t/T, from lambda^1 to lambda^5; there is no constant term.
+inline constexpr std::array<double, 5> cycle_coefficients{3.0, -30.0, 90.0, -105.0, 42.0};
+
+/// beta of (12)-(13): half the integral over [0, 1] of the square of (11)'s first integral (A = T = 1), §4.1.
+inline constexpr double beta = 3.0 / 80080.0;
+
+/// The largest |value| of (11)'s polynomial on [0, 1] (at 0.67), rounded up; A / T^2 times it bounds the cycle's |a|.
+inline constexpr double cycle_peak = 0.12352;
+
+/// a(t) of (11) [m/s^2].
+///
+/// @param amplitude A [m], @param period T [s] > 0, @param t [s] since the cycle's start, 0 <= t <= T
+template <class Real>
+Real cycle_acceleration(const Real& amplitude, const Real& period, const Real& t) {
+  const Real lambda = t / period;
+  Real sum(cycle_coefficients[4]);
+  for (int i = 3; i >= 0; --i) sum = sum * lambda + Real(cycle_coefficients[static_cast<std::size_t>(i)]);
+  return amplitude / (period * period) * (sum * lambda);
+}
+
+}  // namespace steerstat

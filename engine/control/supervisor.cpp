@@ -1,0 +1,180 @@
+#include "control/supervisor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "control/cycle.hpp"
+#include "core/elementary.hpp"
+
+namespace steerstat {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double runaway = 1e3;        // beyond this a state has diverged
+constexpr double arrival_slack = 1e-6; // [rad] a drift that ended at the entry point is in the set
+constexpr double time_slack = 1e-12;   // [s] the horizon has come
+
+/// The passive joint seen from the goal's quadrant (CONTROLLER.md section 4).
+struct PassiveJoint {
+  double u;      // [rad] past the approach edge, in [0, 2 pi)
+  double omega;  // [rad/s] towards the goal
+  double sine;   // sin q2
+  double s2;     // sigma sin 2 q2: a cycle changes omega by -K^2 beta s2 A^2 / T
+};
+
+PassiveJoint passive_joint(const State<double>& x, const Goal& goal) {
+  const SinCos<double> angle = sincos(x.q2);
+  return {modulo_turn(goal.sigma * (x.q2 - goal.edge)), goal.sigma * x.q2_dot, angle.sin,
+          goal.sigma * (2.0 * angle.sin * angle.cos)};
+}
+
+bool has_diverged(const State<double>& x, const Goal& goal) {
+  const bool finite =
+      std::isfinite(x.q1) && std::isfinite(x.q2) && std::isfinite(x.q1_dot) && std::isfinite(x.q2_dot);
+  return !finite || std::abs(x.q1 - goal.q1) > runaway || std::abs(x.q2_dot) > runaway;
+}
+
+bool realigns_after(PhaseKind last, Realignment realignment) {
+  switch (last) {
+    case PhaseKind::contraction:
+    case PhaseKind::swing:
+      return realignment != Realignment::never;
+    case PhaseKind::drift:
+      return realignment == Realignment::always;
+    case PhaseKind::align:
+      return false;
+  }
+  return false;
+}
+
+Phase cycle(PhaseKind kind, double period, double amplitude) {
+  Phase phase;
+  phase.kind = kind;
+  phase.duration = period;
+  phase.amplitude = amplitude;
+  return phase;
+}
+
+Phase align(const Controller& controller) {
+  Phase phase;
+  phase.kind = PhaseKind::align;
+  phase.active_tolerance = controller.alignment.tolerance;
+  return phase;
+}
+
+/// (16)-(17). @return nothing where T is longer than a cycle may be.
+std::optional<Phase> contraction(const PassiveJoint& joint, const Controller& controller, const Goal& goal) {
+  const auto& [eta1, eta2, max_period] = controller.contraction;
+  const double period = (1.0 - eta1) * (goal.width - joint.u) / joint.omega;  // (16)
+  if (!(period <= max_period)) return std::nullopt;
+  const double gain = controller.coupling * controller.coupling * beta * std::abs(joint.s2);
+  const double amplitude = std::sqrt(period * (1.0 - eta2) * joint.omega / gain);  // (17)
+  return cycle(PhaseKind::contraction, period, amplitude);
+}
+
+/// Rule 5: let the joint turn towards the goal until it is `entry_fraction` into its quadrant (cases T1, T2).
+Phase drift_to_entry(const State<double>& x, const PassiveJoint& joint, const Controller& controller,
+                     const Goal& goal) {
+  double distance = controller.entry_fraction * goal.width - joint.u;
+  if (distance <= arrival_slack) distance += 2.0 * pi;
+  Phase phase;
+  phase.kind = PhaseKind::drift;
+  (goal.sigma > 0.0 ? phase.q2_high : phase.q2_low) = x.q2 + goal.sigma * distance;
+  phase.direction = goal.sigma;
+  phase.speed_floor = 0.99 * controller.rest_speed;
+  return phase;
+}
+
+/// Rule 6: let the joint turn away from the goal until a swing has authority over it (case T3).
+///
+/// It ends where s2 = -(min_authority + 0.1); s2 = sin 2v with v = sigma q2 is above that while v lies within
+/// half + pi/4 of an odd multiple of pi/4 congruent to pi/4 modulo pi, half = asin(min_authority + 0.1) / 2.
+Phase drift_to_authority(const State<double>& x, const Controller& controller, const Goal& goal) {
+  const double half = 0.5 * arc_sine(controller.swing.min_authority + 0.1) + 0.25 * pi;
+  const double v = goal.sigma * x.q2;
+  const double centre = 0.25 * pi + pi * std::nearbyint((v - 0.25 * pi) / pi);
+  Phase phase;
+  phase.kind = PhaseKind::drift;
+  phase.q2_low = goal.sigma * centre - half;
+  phase.q2_high = goal.sigma * centre + half;
+  phase.direction = -goal.sigma;
+  phase.speed_floor = 0.99 * controller.rest_speed;
+  return phase;
+}
+
+/// Rule 7: change the passive joint's speed towards the wanted one with a cycle (case T3).
+Phase swing(const PassiveJoint& joint, const Controller& controller) {
+  const Controller::Swing& k = controller.swing;
+  double change = joint.s2 < 0.0 ? k.speed - joint.omega : k.speed + joint.omega;
+  if (change < 0.0) change = k.speed;
+  const double gain = controller.coupling * controller.coupling * beta * std::max(1e-6, std::abs(joint.s2));
+  return cycle(PhaseKind::swing, k.period, std::min(k.max_amplitude, std::sqrt(k.period * change / gain)));
+}
+
+/// Rules 4-7.
+Phase steer(const State<double>& x, const PassiveJoint& joint, const Controller& controller, const Goal& goal) {
+  const double entry = controller.entry_fraction * goal.width - arrival_slack;
+  const bool inside = joint.omega > 0.0 && entry <= joint.u && joint.u < goal.width;
+  if (inside) {
+    if (const std::optional<Phase> phase = contraction(joint, controller, goal)) return *phase;  // rule 4
+  }
+  const double authority = controller.swing.min_authority;
+  const bool too_slow = joint.omega < controller.drift.min_speed && joint.s2 < -authority;
+  if (joint.omega > controller.rest_speed && !inside && !too_slow) {
+    return drift_to_entry(x, joint, controller, goal);  // rule 5
+  }
+  if (joint.omega < -controller.rest_speed && joint.s2 > -authority) {
+    return drift_to_authority(x, controller, goal);  // rule 6
+  }
+  return swing(joint, controller);  // rule 7
+}
+
+Decision stop(Status status, const Memory& memory) { return {status, Phase{}, memory}; }
+
+Decision run(const Phase& phase, Memory memory) {
+  memory.last = phase.kind;
+  switch (phase.kind) {
+    case PhaseKind::align:
+      ++memory.alignments;
+      break;
+    case PhaseKind::contraction:
+      ++memory.cycles;
+      break;
+    case PhaseKind::swing:
+      ++memory.swings;
+      break;
+    case PhaseKind::drift:
+      break;
+  }
+  return {std::nullopt, phase, memory};
+}
+
+}  // namespace
+
+Decision decide(double t, const State<double>& x, const Memory& memory, const Controller& controller,
+                const Goal& goal) {
+  const double active = active_error(x, goal);
+  const bool aligned = active <= controller.alignment.tolerance;
+  if (!memory.last && !aligned) return run(align(controller), memory);  // every trial starts with align
+
+  if (has_diverged(x, goal)) return stop(Status::diverged, memory);
+  if (t >= controller.horizon - time_slack || memory.decisions >= most_decisions) {
+    return stop(Status::timeout, memory);  // rule 1
+  }
+  if (memory.last && realigns_after(*memory.last, controller.realignment) && !aligned) {
+    return run(align(controller), memory);
+  }
+
+  Memory next = memory;
+  ++next.decisions;
+  if (passive_error(x, goal) <= controller.convergence.tolerance) {  // rule 2
+    if (active <= controller.convergence.active_tolerance) return stop(Status::converged, next);
+    return run(align(controller), next);
+  }
+  const PassiveJoint joint = passive_joint(x, goal);
+  if (std::abs(joint.sine) <= 1e-6 && std::abs(x.q2_dot) <= 1e-6) return stop(Status::singular, next);  // rule 3
+  return run(steer(x, joint, controller, goal), next);
+}
+
+}  // namespace steerstat

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/status.hpp"
+#include "statistics/proportion.hpp"
+#include "study/run.hpp"
+#include "study/study.hpp"
+
+namespace steerstat {
+
+/// Mean, spread and quantiles of a sample.
+struct SampleStatistics {
+  double mean, std, min, p05, p50, p95, p99, max;
+};
+
+/// What a set of trials says; statistics without data are empty.
+struct TrialStatistics {
+  std::uint64_t completed{0};
+  std::optional<ProportionInterval> success_rate;
+  std::array<std::uint64_t, status_names.size()> outcomes{};  ///< by Status
+  std::optional<SampleStatistics> settling_time;              ///< [s] converged trials
+  std::optional<SampleStatistics> cycles;                     ///< converged trials
+};
+
+/// A study's statistics: INTERFACE's summary object.
+struct Summary {
+  std::string id, name, spec_sha256, engine_version;
+  std::uint64_t seed{0};
+  bool complete{false};
+  std::uint64_t requested{0};
+  TrialStatistics all;
+  struct Cell {
+    std::vector<Plan::SweptValue> sweep;
+    TrialStatistics statistics;
+  };
+  std::vector<Cell> cells;  ///< one a cell where there are sweeps
+  double wall_s{0.0};
+  unsigned threads{0};
+};
+
+/// Summarises finished trials. Sums run in trial order.
+Summary summarise(const Study& study, const StudyResult& result);
+
+/// The summary as JSON (schemas/summary.schema.json), indented, ending in a newline.
+std::string summary_json(const Summary& summary);
+
+/// The summary as text for a terminal. @param colour  use ANSI colours
+std::string summary_text(const Summary& summary, bool colour);
+
+}  // namespace steerstat

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "control/controller.hpp"
+#include "control/goal.hpp"
+#include "robot/plant.hpp"
+#include "sampling/distribution.hpp"
+#include "trial/runner.hpp"
+
+namespace steerstat {
+
+/// The values an input takes in turn; every sweep multiplies the cells.
+struct Sweep {
+  std::vector<double> values;  ///< at least one
+  friend bool operator==(const Sweep&, const Sweep&) = default;
+};
+
+/// What a spec says of one number.
+using InputValue = std::variant<double, Distribution, Sweep>;
+
+/// One number of `plant`, `initial_state` or `controller`.
+struct Input {
+  std::string name;  ///< dotted, as in a spec: "plant.m1", "controller.contraction.eta1"
+  InputValue value;
+  friend bool operator==(const Input&, const Input&) = default;
+};
+
+enum class SamplingMethod : std::uint8_t { monte_carlo, grid, explicit_trials };
+
+/// How the inputs' values are drawn.
+struct Sampling {
+  SamplingMethod method{SamplingMethod::monte_carlo};
+  std::uint64_t trials{1};  ///< draws a cell; 1 for a grid
+  std::uint64_t seed{1};
+  std::vector<std::string> explicit_names;  ///< explicit: the inputs that the rows set
+  std::vector<double> explicit_values;      ///< explicit: (trials x explicit_names), row by row
+
+  friend bool operator==(const Sampling&, const Sampling&) = default;
+};
+
+/// Which trials' trajectories the result file keeps.
+struct Retention {
+  std::uint64_t failed{0};  ///< the first this many that did not converge, by index
+  std::uint64_t first{0};   ///< the first this many of all
+  friend bool operator==(const Retention&, const Retention&) = default;
+};
+
+/// A study: what a spec says, checked and with every default filled in. A value; the outcomes are a function of it.
+struct Study {
+  std::string name{"study"};
+  PlantParameters<double> nominal{};
+  std::vector<Input> inputs;  ///< every number that may vary, in the order of input_names()
+  Realignment realignment{Realignment::after_cycle};
+  Goal goal{goal_at(0.0, 0.7853981633974483)};
+  double horizon{300.0};  ///< [s]
+  IntegratorChoice integrator{};
+  Sampling sampling{};
+  Retention retention{};
+
+  friend bool operator==(const Study&, const Study&) = default;
+};
+
+}  // namespace steerstat

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+
+#include "trial/trial.hpp"
+
+namespace steerstat {
+
+/// Which engine simulates the trials, and how precisely.
+struct IntegratorChoice {
+  enum class Method : std::uint8_t { lockstep = 0, cvode = 1 };
+  static constexpr std::array<std::string_view, 2> method_names{"lockstep", "cvode"};
+
+  Method method{Method::cvode};
+  double tolerance{1e-9};  ///< local error per step, relative to max(1, |state|)
+
+  friend bool operator==(const IntegratorChoice&, const IntegratorChoice&) = default;
+};
+
+/// A supply of trials and the place their outcomes go to. A runner calls it from its own thread alone.
+class TrialStream {
+ public:
+  virtual ~TrialStream() = default;
+
+  /// Writes the next trial's index and parameters. @return false when there is no further trial (now or ever).
+  virtual bool next(std::uint64_t& index, TrialParameters& parameters) = 0;
+
+  /// Takes the outcome of trial `index`; outcomes come in any order.
+  virtual void finished(std::uint64_t index, const TrialOutcome& outcome) = 0;
+};
+
+/// Simulates trials one stream at a time. Not thread-safe: one runner a thread. An outcome depends on the trial's
+/// parameters and the integrator alone, never on the stream, the order or the trials beside it.
+class TrialRunner {
+ public:
+  virtual ~TrialRunner() = default;
+
+  /// Runs `stream` dry.
+  virtual void run(TrialStream& stream) = 0;
+
+  /// Runs one trial.
+  TrialOutcome run(const TrialParameters& parameters);
+};
+
+/// @throws RunFailure where the engine cannot be set up.
+std::unique_ptr<TrialRunner> make_runner(const IntegratorChoice& integrator);
+
+}  // namespace steerstat
