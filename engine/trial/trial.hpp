@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <limits>
 
@@ -38,5 +39,16 @@ struct TrialOutcome {
 
   friend bool operator==(const TrialOutcome&, const TrialOutcome&) = default;
 };
+
+/// Whether two outcomes are the same bits; unlike ==, a NaN equals itself and the two zeros differ.
+inline bool same_bits(const TrialOutcome& a, const TrialOutcome& b) {
+  const auto same = [](double x, double y) {
+    return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
+  };
+  return a.status == b.status && a.cycles == b.cycles && a.swings == b.swings && a.alignments == b.alignments &&
+         same(a.end_time, b.end_time) && same(a.end_state.q1, b.end_state.q1) && same(a.end_state.q2, b.end_state.q2) &&
+         same(a.end_state.q1_dot, b.end_state.q1_dot) && same(a.end_state.q2_dot, b.end_state.q2_dot) &&
+         same(a.passive_error, b.passive_error) && same(a.active_error, b.active_error);
+}
 
 }  // namespace steerstat
