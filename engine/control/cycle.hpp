@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 namespace steerstat {
 
@@ -10,7 +11,8 @@ inline constexpr std::array<double, 5> cycle_coefficients{3.0, -30.0, 90.0, -105
 /// beta of (12)-(13): half the integral over [0, 1] of the square of (11)'s first integral (A = T = 1), §4.1.
 inline constexpr double beta = 3.0 / 80080.0;
 
-/// The largest |value| of (11)'s polynomial on [0, 1] (at 0.67), rounded up; A / T^2 times it bounds the cycle's |a|.
+/// The largest |value| of (11)'s polynomial on [0, 1] (at 0.33 and 0.67), rounded up; A / T^2 times it bounds the
+/// cycle's |a|.
 inline constexpr double cycle_peak = 0.12352;
 
 /// a(t) of (11) [m/s^2].

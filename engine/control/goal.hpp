@@ -30,14 +30,15 @@ inline Goal goal_at(double q1, double q2) {
 /// Below this |sin 2 q2_goal| the contraction sets are empty and the goal is refused.
 inline constexpr double least_goal_sine = 1e-3;
 
-/// x modulo 2 pi, in [0, 2 pi).
+/// x modulo 2 pi, in [0, 2 pi); off by at most 2^-51 max(|x|, 2 pi) on the circle. NaN for a non-finite x.
 inline double modulo_turn(double x) {
   constexpr double turn = 2.0 * std::numbers::pi;
   const double y = x - turn * std::floor(x / turn);
-  return y < turn ? (y > 0.0 ? y : 0.0) : 0.0;
+  // Rounding may leave y a little outside; NaN fails both comparisons and stays NaN.
+  return (y < 0.0 || y >= turn) ? 0.0 : y;
 }
 
-/// x wrapped to (-pi, pi].
+/// x wrapped to (-pi, pi]. NaN for a non-finite x.
 inline double wrap(double x) {
   const double y = modulo_turn(x);
   return y > std::numbers::pi ? y - 2.0 * std::numbers::pi : y;

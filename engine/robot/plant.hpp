@@ -8,12 +8,12 @@ namespace steerstat {
 /// true one, which the plant has.
 template <class Real>
 struct PlantParameters {
-  Real m1{1.0};   ///< [kg] mass of link 1, > 0
-  Real m2{1.0};   ///< [kg] mass of link 2, > 0
-  Real d2{0.5};   ///< [m] joint axis to centre of mass of link 2, non-zero
-  Real I2{1.0};   ///< [kg m^2] barycentral inertia of link 2, > 0
-  Real f1{0.0};   ///< [N s/m] viscous friction of the prismatic joint, >= 0
-  Real f2{0.0};   ///< [N m s/rad] viscous friction of the rotational joint, >= 0
+  Real m1{1.0};  ///< [kg] mass of link 1, > 0
+  Real m2{1.0};  ///< [kg] mass of link 2, > 0
+  Real d2{0.5};  ///< [m] joint axis to centre of mass of link 2, non-zero
+  Real I2{1.0};  ///< [kg m^2] barycentral inertia of link 2, > 0
+  Real f1{0.0};  ///< [N s/m] viscous friction of the prismatic joint, >= 0
+  Real f2{0.0};  ///< [N m s/rad] viscous friction of the rotational joint, >= 0
 
   friend bool operator==(const PlantParameters&, const PlantParameters&) = default;
 };
@@ -28,11 +28,11 @@ struct Accelerations {
 /// The constants that (1)-(2) and the torque are made of, computed once per trial.
 template <class Real>
 struct PlantConstants {
-  Real mass;      ///< [kg] m1 + m2
-  Real moment;    ///< [kg m] m2 d2
-  Real inertia;   ///< [kg m^2] I2 + m2 d2^2, about the joint axis
-  Real f1;        ///< [N s/m]
-  Real f2;        ///< [N m s/rad]
+  Real mass;     ///< [kg] m1 + m2
+  Real moment;   ///< [kg m] m2 d2
+  Real inertia;  ///< [kg m^2] I2 + m2 d2^2, about the joint axis
+  Real f1;       ///< [N s/m]
+  Real f2;       ///< [N m s/rad]
 };
 
 template <class Real>
@@ -78,8 +78,7 @@ Real kinetic_energy(const PlantConstants<Real>& k, const State<Real>& x, const R
 /// @param s, c   sin q2 and cos q2
 /// @param q2_dot [rad/s]
 template <class Real>
-Real linearising_force(const PlantConstants<Real>& k, const Real& a, const Real& s, const Real& c,
-                       const Real& q2_dot) {
+Real linearising_force(const PlantConstants<Real>& k, const Real& a, const Real& s, const Real& c, const Real& q2_dot) {
   const Real coupled = k.moment * s;
   return (k.mass - coupled * coupled / k.inertia) * a - k.moment * c * (q2_dot * q2_dot);
 }
