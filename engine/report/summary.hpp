@@ -8,15 +8,11 @@
 
 #include "core/status.hpp"
 #include "statistics/proportion.hpp"
+#include "statistics/sample.hpp"
 #include "study/run.hpp"
 #include "study/study.hpp"
 
 namespace steerstat {
-
-/// Mean, spread and quantiles of a sample.
-struct SampleStatistics {
-  double mean, std, min, p05, p50, p95, p99, max;
-};
 
 /// What a set of trials says; statistics without data are empty.
 struct TrialStatistics {

@@ -17,6 +17,7 @@ struct ProportionInterval {
 /// @param successes  <= trials
 /// @param trials     > 0
 /// @param level      in (0, 1)
+/// @throws std::invalid_argument outside those ranges
 ProportionInterval wilson_interval(std::uint64_t successes, std::uint64_t trials, double level);
 
 }  // namespace steerstat
