@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace steerstat {
+
+/// A random design: the point of the unit cube that each draw of a study takes, one coordinate a variable. A design
+/// belongs to a seed and a list of variables' names. Immutable, so safe to share between threads.
+class Design {
+ public:
+  virtual ~Design() = default;
+
+  /// @param draw      index of the draw
+  /// @param variable  position in the design's list of names
+  /// @return the draw's coordinate for that variable, in (0, 1).
+  [[nodiscard]] virtual double coordinate(std::uint64_t draw, std::size_t variable) const = 0;
+};
+
+}  // namespace steerstat
