@@ -2,12 +2,14 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <stop_token>
 #include <vector>
 
 #include "study/plan.hpp"
 #include "study/study.hpp"
 #include "trial/replay.hpp"
+#include "trial/runner.hpp"
 
 namespace steerstat {
 
@@ -20,9 +22,12 @@ struct Progress {
 
 struct RunOptions {
   unsigned threads{0};  ///< 0: one a core
-  /// Called from one thread at a time, a few times a second; may be empty.
+  /// Called from one thread at a time: before the first trial, a few times a second, and after the last; may be empty.
+  /// What it throws ends the run and leaves run_study().
   std::function<void(const Progress&)> on_progress{};
   std::stop_token stop{};  ///< a request ends the run after the blocks in flight
+  /// Makes each worker's runner, on that worker.
+  std::function<std::unique_ptr<TrialRunner>(const IntegratorChoice&)> make_runner{steerstat::make_runner};
 };
 
 /// Finished trials, as columns in index order. Whole blocks only: a run that was stopped keeps every block it had
@@ -41,13 +46,19 @@ struct StudyResult {
     Trajectory trajectory;
   };
   std::vector<Retained> trajectories;  ///< as `retention` asks, by index
-  double wall_s{0.0};
-  unsigned threads{0};
+  double wall_s{0.0};                  ///< [s] the trials took, retained trajectories not counted
+  unsigned threads{0};  ///< workers that shared the trials: as asked, but never more than there were blocks
 };
 
-/// Runs a study on TBB. The outcomes are the same bits whatever the number of threads.
+/// Trials a worker claims at a time: few where trials are slow (CVODE, milliseconds each), so that a stop is quick and
+/// the last blocks end together; more where a block feeds many lanes. Depends on the study alone, so that what a
+/// stopped run keeps can be compared between machines.
+std::uint64_t block_size(const Study& study);
+
+/// Runs a study on TBB. The outcomes are the same bits whatever the number of threads. Safe to call from several
+/// threads at once.
 ///
-/// @throws RunFailure (and whatever a worker throws: a bug) with nothing kept.
+/// @throws RunFailure, and whatever a worker or the progress callback throws, with nothing kept.
 StudyResult run_study(const Study& study, const RunOptions& options);
 
 }  // namespace steerstat

@@ -1,0 +1,233 @@
+#include "study/run.hpp"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <utility>
+
+namespace steerstat {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Consecutive trials [begin, end).
+struct Block {
+  std::uint64_t begin;
+  std::uint64_t end;
+};
+
+/// Hands out a study's blocks in order, so that the blocks begun are always a prefix of it. Thread-safe.
+class BlockQueue {
+ public:
+  BlockQueue(std::uint64_t trials, std::uint64_t block, std::stop_token stop)
+      : trials_(trials), block_(block), stop_(std::move(stop)) {}
+
+  /// The next block; nothing once all are taken, a stop was requested or halt() was called.
+  std::optional<Block> claim() {
+    if (halted_.load(std::memory_order_relaxed) || stop_.stop_requested()) return std::nullopt;
+    const std::uint64_t begin = next_.fetch_add(block_, std::memory_order_relaxed);
+    if (begin >= trials_) return std::nullopt;
+    return Block{begin, std::min(begin + block_, trials_)};
+  }
+
+  /// Ends the run because something failed.
+  void halt() { halted_.store(true, std::memory_order_relaxed); }
+
+  /// Trials in the blocks begun: exactly those before this index.
+  [[nodiscard]] std::uint64_t begun() const { return std::min(next_.load(std::memory_order_relaxed), trials_); }
+
+ private:
+  const std::uint64_t trials_;
+  const std::uint64_t block_;
+  const std::stop_token stop_;
+  std::atomic<std::uint64_t> next_{0};
+  std::atomic<bool> halted_{false};
+};
+
+/// One worker's count of finished trials, on a cache line of its own so that counting costs the other workers nothing.
+struct alignas(64) Tally {
+  std::atomic<std::uint64_t> finished{0};
+};
+
+std::uint64_t total(const std::vector<Tally>& tallies) {
+  return std::accumulate(tallies.begin(), tallies.end(), std::uint64_t{0}, [](std::uint64_t sum, const Tally& tally) {
+    return sum + tally.finished.load(std::memory_order_relaxed);
+  });
+}
+
+/// Feeds one worker's runner block after block, so that its lanes refill across blocks, and stores each outcome in the
+/// slot of its index. The slots of different trials are distinct objects: no two workers write the same one.
+class BlockStream final : public TrialStream {
+ public:
+  BlockStream(const Plan& plan, BlockQueue& blocks, std::vector<TrialOutcome>& outcomes, Tally& tally)
+      : plan_(plan), blocks_(blocks), outcomes_(outcomes), tally_(tally) {}
+
+  bool next(std::uint64_t& index, TrialParameters& parameters) override {
+    if (block_.begin == block_.end) {
+      if (dry_) return false;
+      const std::optional<Block> claimed = blocks_.claim();
+      dry_ = !claimed;
+      if (dry_) return false;
+      block_ = *claimed;
+    }
+    index = block_.begin++;
+    parameters = plan_.parameters(index);
+    return true;
+  }
+
+  void finished(std::uint64_t index, const TrialOutcome& outcome) override {
+    outcomes_[index] = outcome;
+    tally_.finished.fetch_add(1, std::memory_order_relaxed);
+  }
+
+ private:
+  const Plan& plan_;
+  BlockQueue& blocks_;
+  std::vector<TrialOutcome>& outcomes_;
+  Tally& tally_;
+  Block block_{0, 0};
+  bool dry_{false};  // a runner may ask again after the end; the answer stays no
+};
+
+/// Calls the progress callback from a thread of its own, which sleeps in between, until destroyed or finish()ed.
+class ProgressReports {
+ public:
+  ProgressReports(const RunOptions& options, std::uint64_t requested, const std::vector<Tally>& tallies,
+                  Clock::time_point start, BlockQueue& blocks)
+      : callback_(options.on_progress), requested_(requested), tallies_(tallies), start_(start), blocks_(blocks) {
+    if (callback_) thread_ = std::jthread([this](const std::stop_token& stop) { report_until(stop); });
+  }
+
+  /// Makes the last report, from the calling thread. @throws what the callback threw
+  void finish() {
+    if (!callback_) return;
+    thread_.request_stop();
+    thread_.join();
+    if (failure_) std::rethrow_exception(failure_);
+    report();
+  }
+
+ private:
+  void report() { callback_(Progress{total(tallies_), requested_, seconds_since(start_)}); }
+
+  void report_until(const std::stop_token& stop) {
+    constexpr std::chrono::milliseconds interval{200};
+    std::mutex mutex;
+    std::condition_variable_any wake;
+    std::unique_lock lock(mutex);
+    try {
+      while (!stop.stop_requested()) {
+        report();
+        wake.wait_for(lock, stop, interval, [] { return false; });
+      }
+    } catch (...) {
+      failure_ = std::current_exception();
+      blocks_.halt();
+    }
+  }
+
+  const std::function<void(const Progress&)>& callback_;
+  const std::uint64_t requested_;
+  const std::vector<Tally>& tallies_;
+  const Clock::time_point start_;
+  BlockQueue& blocks_;
+  std::exception_ptr failure_{};
+  std::jthread thread_{};  // last: it uses all of the above
+};
+
+/// The first `first` of all rows and the first `failed` that did not converge, ascending, each once.
+std::vector<std::uint64_t> rows_to_retain(const Retention& retention, const TrialTable& trials) {
+  std::vector<std::uint64_t> rows;
+  std::uint64_t failures = 0;
+  for (std::uint64_t row = 0; row < trials.outcomes.size(); ++row) {
+    const bool failed = trials.outcomes[row].status != Status::converged;
+    if (row < retention.first || (failed && failures < retention.failed)) rows.push_back(row);
+    failures += failed ? 1 : 0;
+    if (row >= retention.first && failures >= retention.failed) break;
+  }
+  return rows;
+}
+
+std::vector<StudyResult::Retained> retained_trajectories(const Study& study, const Plan& plan,
+                                                         const TrialTable& trials) {
+  const std::vector<std::uint64_t> rows = rows_to_retain(study.retention, trials);
+  std::vector<StudyResult::Retained> retained(rows.size());
+  tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
+    const std::uint64_t index = trials.index[rows[i]];
+    retained[i] = {index, replay(plan.parameters(index), study.integrator)};
+    if (!same_bits(retained[i].trajectory.outcome, trials.outcomes[rows[i]])) {
+      throw std::logic_error("the replay of trial " + std::to_string(index) + " ended differently from its run");
+    }
+  });
+  return retained;
+}
+
+}  // namespace
+
+std::uint64_t block_size(const Study& study) {
+  return study.integrator.method == IntegratorChoice::Method::cvode ? 16 : 128;
+}
+
+StudyResult run_study(const Study& study, const RunOptions& options) {
+  const Clock::time_point start = Clock::now();
+  const Plan plan(study);
+  const std::uint64_t trials = plan.trials();
+  const std::uint64_t block = block_size(study);
+  const auto cores = static_cast<unsigned>(tbb::info::default_concurrency());
+  const std::uint64_t asked = options.threads == 0 ? cores : options.threads;
+  const auto workers = static_cast<unsigned>(std::clamp<std::uint64_t>((trials + block - 1) / block, 1, asked));
+
+  StudyResult result;
+  result.threads = workers;
+  result.trials.outcomes.resize(trials);
+  BlockQueue blocks(trials, block, options.stop);
+  std::vector<Tally> tallies(workers);
+  ProgressReports reports(options, trials, tallies, start, blocks);
+
+  // TBB keeps to the cores unless allowed more; the caller may ask for more.
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, std::max(workers, cores));
+  tbb::task_arena arena(static_cast<int>(workers));
+  arena.execute([&] {
+    const auto work = [&](unsigned worker) {
+      try {
+        BlockStream stream(plan, blocks, result.trials.outcomes, tallies[worker]);
+        options.make_runner(study.integrator)->run(stream);
+      } catch (...) {
+        blocks.halt();
+        throw;  // TBB hands the first to the caller
+      }
+    };
+    tbb::parallel_for(0U, workers, work, tbb::simple_partitioner{});
+  });
+  result.wall_s = seconds_since(start);
+  reports.finish();
+
+  const std::uint64_t kept = blocks.begun();
+  if (total(tallies) != kept) throw std::logic_error("a runner returned before its trials were finished");
+  result.complete = kept == trials;
+  result.trials.outcomes.resize(kept);
+  result.trials.index.resize(kept);
+  std::iota(result.trials.index.begin(), result.trials.index.end(), std::uint64_t{0});
+  arena.execute([&] { result.trajectories = retained_trajectories(study, plan, result.trials); });
+  return result;
+}
+
+}  // namespace steerstat
