@@ -1,10 +1,15 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "sampling/design.hpp"
+#include "sampling/factorial.hpp"
 #include "study/study.hpp"
 #include "trial/trial.hpp"
 
@@ -17,14 +22,16 @@ namespace steerstat {
 /// between threads.
 class Plan {
  public:
+  /// @throws std::invalid_argument for a study that decode_study() would not return: an input that does not exist or
+  ///         has two sources of values, or a table of explicit trials with the wrong number of values
   explicit Plan(const Study& study);
 
-  [[nodiscard]] std::uint64_t trials() const;
-  [[nodiscard]] std::uint64_t cells() const;
+  [[nodiscard]] std::uint64_t trials() const { return draws_ * cells(); }
+  [[nodiscard]] std::uint64_t cells() const { return cells_.cells(); }
   [[nodiscard]] std::uint64_t cell_of(std::uint64_t index) const { return index % cells(); }
 
   /// Names of the inputs that vary between trials (distributions, sweeps, explicit columns), in spec order.
-  [[nodiscard]] const std::vector<std::string>& varying() const;
+  [[nodiscard]] const std::vector<std::string>& varying() const { return names_; }
 
   /// Writes the values of the varying inputs in trial `index`. @param values (varying) in the order of varying().
   void draw(std::uint64_t index, std::span<double> values) const;
@@ -41,6 +48,36 @@ class Plan {
     double value;
   };
   [[nodiscard]] std::vector<SweptValue> sweep_values(std::uint64_t cell) const;
+
+ private:
+  using Field = double& (*)(TrialParameters&);
+
+  // Where a varying input's values come from.
+  struct Drawn {
+    Distribution distribution;
+    std::size_t coordinate;  // in the design
+    double scale;            // the nominal value where the distribution is relative, else 1
+  };
+  struct Swept {
+    std::vector<double> values;
+    std::size_t factor;  // in the factorial of cells
+  };
+  struct Listed {
+    std::size_t column;  // of the explicit trials
+  };
+  using Source = std::variant<Drawn, Swept, Listed>;
+
+  [[nodiscard]] double value_of(const Source& source, std::uint64_t draw, std::uint64_t cell) const;
+
+  std::vector<std::string> names_;  // (varying)
+  std::vector<Field> fields_;       // (varying)
+  std::vector<Source> sources_;     // (varying)
+  TrialParameters base_;            // with every value that does not vary
+  std::uint64_t draws_;
+  Factorial cells_;
+  std::shared_ptr<const Design> design_;
+  std::vector<double> listed_;  // (draws x listed_columns_), explicit trials only
+  std::size_t listed_columns_{0};
 };
 
 }  // namespace steerstat

@@ -1,0 +1,114 @@
+#include "study/inputs.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace steerstat {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+constexpr Range any{};
+constexpr Range positive{.low = 0.0, .rule = "> 0"};
+constexpr Range non_negative{.low = 0.0, .includes_low = true, .rule = ">= 0"};
+constexpr Range non_zero{.excludes_zero = true, .rule = "not 0"};
+constexpr Range fraction{.low = 0.0, .high = 1.0, .rule = "in (0, 1)"};
+// Rule 6's drift ends at s2 = -(min_authority + 0.1), which has to be above -1.
+constexpr Range authority{.low = 0.0, .high = 0.9, .includes_low = true, .rule = "in [0, 0.9)"};
+
+using T = TrialParameters;
+
+constexpr std::array<InputDefinition, input_count> definitions{{
+    InputDefinition{"plant.m1", "kg", positive, [](T& p) -> double& { return p.plant.m1; }},
+    InputDefinition{"plant.m2", "kg", positive, [](T& p) -> double& { return p.plant.m2; }},
+    InputDefinition{"plant.d2", "m", non_zero, [](T& p) -> double& { return p.plant.d2; }},
+    InputDefinition{"plant.I2", "kg m^2", positive, [](T& p) -> double& { return p.plant.I2; }},
+    InputDefinition{"plant.f1", "N s/m", non_negative, [](T& p) -> double& { return p.plant.f1; }},
+    InputDefinition{"plant.f2", "N m s/rad", non_negative, [](T& p) -> double& { return p.plant.f2; }},
+    InputDefinition{"initial_state.q1", "m", any, [](T& p) -> double& { return p.start.q1; }},
+    InputDefinition{"initial_state.q2", "rad", any, [](T& p) -> double& { return p.start.q2; }},
+    InputDefinition{"initial_state.q1_dot", "m/s", any, [](T& p) -> double& { return p.start.q1_dot; }},
+    InputDefinition{"initial_state.q2_dot", "rad/s", any, [](T& p) -> double& { return p.start.q2_dot; }},
+    InputDefinition{"controller.alignment.kp", "1/s^2", positive,
+                    [](T& p) -> double& { return p.controller.alignment.kp; }},
+    InputDefinition{"controller.alignment.kd", "1/s", positive,
+                    [](T& p) -> double& { return p.controller.alignment.kd; }},
+    InputDefinition{"controller.alignment.tolerance", "m, m/s", positive,
+                    [](T& p) -> double& { return p.controller.alignment.tolerance; }},
+    InputDefinition{"controller.entry_fraction", "1", fraction,
+                    [](T& p) -> double& { return p.controller.entry_fraction; }},
+    InputDefinition{"controller.drift.min_speed", "rad/s", non_negative,
+                    [](T& p) -> double& { return p.controller.drift.min_speed; }},
+    InputDefinition{"controller.rest_speed", "rad/s", positive,
+                    [](T& p) -> double& { return p.controller.rest_speed; }},
+    InputDefinition{"controller.swing.period", "s", positive,
+                    [](T& p) -> double& { return p.controller.swing.period; }},
+    InputDefinition{"controller.swing.speed", "rad/s", positive,
+                    [](T& p) -> double& { return p.controller.swing.speed; }},
+    InputDefinition{"controller.swing.max_amplitude", "m", positive,
+                    [](T& p) -> double& { return p.controller.swing.max_amplitude; }},
+    InputDefinition{"controller.swing.min_authority", "1", authority,
+                    [](T& p) -> double& { return p.controller.swing.min_authority; }},
+    InputDefinition{"controller.contraction.eta1", "1", fraction,
+                    [](T& p) -> double& { return p.controller.contraction.eta1; }},
+    InputDefinition{"controller.contraction.eta2", "1", fraction,
+                    [](T& p) -> double& { return p.controller.contraction.eta2; }},
+    InputDefinition{"controller.contraction.max_period", "s", positive,
+                    [](T& p) -> double& { return p.controller.contraction.max_period; }},
+    InputDefinition{"controller.convergence.tolerance", "rad, rad/s", positive,
+                    [](T& p) -> double& { return p.controller.convergence.tolerance; }},
+    InputDefinition{"controller.convergence.active_tolerance", "m, m/s", positive,
+                    [](T& p) -> double& { return p.controller.convergence.active_tolerance; }},
+}};
+static_assert(definitions.back().field != nullptr, "input_count says how many there are");
+
+}  // namespace
+
+bool Range::contains(double x) const {
+  return std::isfinite(x) && (includes_low ? x >= low : x > low) && (includes_high ? x <= high : x < high) &&
+         !(excludes_zero && x == 0.0);
+}
+
+bool Range::contains(const Support& support) const {
+  const bool low_inside = includes_low || !support.includes_low ? support.low >= low : support.low > low;
+  const bool high_inside = includes_high || high == infinity ? support.high <= high : support.high < high;
+  const bool zero_outside = support.low > 0.0 || support.high < 0.0 || (support.low == 0.0 && !support.includes_low);
+  const bool unbounded_below = low == -infinity;
+  return (unbounded_below || low_inside) && high_inside && (!excludes_zero || zero_outside);
+}
+
+double InputDefinition::default_value() const {
+  TrialParameters parameters;
+  return field(parameters);
+}
+
+std::span<const InputDefinition> input_definitions() {
+  return definitions;
+}
+
+const InputDefinition* find_input(std::string_view name) {
+  for (const InputDefinition& definition : definitions) {
+    if (definition.name == name) return &definition;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> input_names() {
+  std::vector<std::string> names;
+  names.reserve(definitions.size());
+  for (const InputDefinition& definition : definitions) names.emplace_back(definition.name);
+  return names;
+}
+
+std::vector<Input> default_inputs(const PlantParameters<double>& nominal) {
+  TrialParameters parameters;
+  parameters.plant = nominal;
+  std::vector<Input> inputs;
+  inputs.reserve(definitions.size());
+  for (const InputDefinition& definition : definitions) {
+    inputs.push_back({std::string(definition.name), definition.field(parameters)});
+  }
+  return inputs;
+}
+
+}  // namespace steerstat

@@ -1,0 +1,138 @@
+#include "study/plan.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <optional>
+#include <stdexcept>
+
+#include "robot/plant.hpp"
+#include "sampling/monte_carlo.hpp"
+#include "study/inputs.hpp"
+
+namespace steerstat {
+namespace {
+
+TrialParameters fixed_parameters(const Study& study) {
+  TrialParameters parameters;
+  parameters.nominal = study.nominal;
+  parameters.plant = study.nominal;
+  parameters.goal = study.goal;
+  parameters.controller.realignment = study.realignment;
+  parameters.controller.horizon = study.horizon;
+  parameters.controller.coupling = coupling(study.nominal);
+  return parameters;
+}
+
+const Input* find_input_of(const Study& study, const std::string& name) {
+  const auto found =
+      std::find_if(study.inputs.begin(), study.inputs.end(), [&](const Input& i) { return i.name == name; });
+  return found == study.inputs.end() ? nullptr : &*found;
+}
+
+std::optional<std::size_t> column_of(const Sampling& sampling, const std::string& name) {
+  const auto& names = sampling.explicit_names;
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+Factorial cells_of(const Study& study) {
+  std::vector<std::size_t> levels;
+  for (const InputDefinition& definition : input_definitions()) {
+    const Input* input = find_input_of(study, std::string(definition.name));
+    if (input == nullptr) continue;
+    if (const auto* sweep = std::get_if<Sweep>(&input->value)) levels.push_back(sweep->values.size());
+  }
+  return Factorial(levels);
+}
+
+void require_known_inputs(const Study& study) {
+  const auto require_known = [](const std::string& name) {
+    if (find_input(name) == nullptr) throw std::invalid_argument("Plan: there is no input called " + name);
+  };
+  for (const Input& input : study.inputs) require_known(input.name);
+  for (const std::string& name : study.sampling.explicit_names) require_known(name);
+  if (study.sampling.method == SamplingMethod::explicit_trials &&
+      study.sampling.explicit_values.size() != study.sampling.trials * study.sampling.explicit_names.size()) {
+    throw std::invalid_argument("Plan: the explicit trials are not a full table");
+  }
+}
+
+}  // namespace
+
+Plan::Plan(const Study& study)
+    : base_(fixed_parameters(study)),
+      draws_(study.sampling.method == SamplingMethod::grid ? 1 : study.sampling.trials),
+      cells_(cells_of(study)),
+      listed_(study.sampling.explicit_values),
+      listed_columns_(study.sampling.explicit_names.size()) {
+  require_known_inputs(study);
+  std::vector<std::string> drawn_names;
+  std::size_t factors = 0;
+  for (const InputDefinition& definition : input_definitions()) {
+    const std::string name(definition.name);
+    const Input* input = find_input_of(study, name);
+    std::optional<Source> source;
+    if (input == nullptr) {
+      // stays as fixed_parameters() has it
+    } else if (const auto* sweep = std::get_if<Sweep>(&input->value)) {
+      source = Swept{sweep->values, factors++};
+    } else if (const auto* distribution = std::get_if<Distribution>(&input->value)) {
+      source = Drawn{*distribution, drawn_names.size(), distribution->relative ? definition.field(base_) : 1.0};
+      drawn_names.push_back(name);
+    } else {
+      definition.field(base_) = std::get<double>(input->value);
+    }
+    if (const auto column = column_of(study.sampling, name)) {
+      if (source) throw std::invalid_argument("Plan: " + name + " varies and is listed too");
+      source = Listed{*column};
+    }
+    if (!source) continue;
+    names_.push_back(name);
+    fields_.push_back(definition.field);
+    sources_.push_back(*std::move(source));
+  }
+  design_ = std::make_shared<MonteCarlo>(study.sampling.seed, drawn_names);
+}
+
+double Plan::value_of(const Source& source, std::uint64_t draw, std::uint64_t cell) const {
+  if (const auto* drawn = std::get_if<Drawn>(&source)) {
+    return drawn->scale * drawn->distribution.quantile(design_->coordinate(draw, drawn->coordinate));
+  }
+  if (const auto* swept = std::get_if<Swept>(&source)) return swept->values[cells_.level(cell, swept->factor)];
+  return listed_[draw * listed_columns_ + std::get<Listed>(source).column];
+}
+
+void Plan::draw(std::uint64_t index, std::span<double> values) const {
+  assert(index < trials() && values.size() == sources_.size());
+  const std::uint64_t draw = index / cells();
+  const std::uint64_t cell = index % cells();
+  for (std::size_t i = 0; i < sources_.size(); ++i) values[i] = value_of(sources_[i], draw, cell);
+}
+
+TrialParameters Plan::parameters_with(std::span<const double> values) const {
+  assert(values.size() == fields_.size());
+  TrialParameters parameters = base_;
+  for (std::size_t i = 0; i < fields_.size(); ++i) fields_[i](parameters) = values[i];
+  return parameters;
+}
+
+TrialParameters Plan::parameters(std::uint64_t index) const {
+  std::array<double, input_count> values;  // NOLINT(cppcoreguidelines-pro-type-member-init): draw() fills what is read
+  const std::span<double> varying(values.data(), fields_.size());
+  draw(index, varying);
+  return parameters_with(varying);
+}
+
+std::vector<Plan::SweptValue> Plan::sweep_values(std::uint64_t cell) const {
+  std::vector<SweptValue> values;
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    if (const auto* swept = std::get_if<Swept>(&sources_[i])) {
+      values.push_back({names_[i], swept->values[cells_.level(cell, swept->factor)]});
+    }
+  }
+  return values;
+}
+
+}  // namespace steerstat
