@@ -30,8 +30,8 @@ struct Change {
 };
 
 Change change_over_cycle(const RegularPoint<Real>& x0, Real amplitude, Real period) {
-  const State<Real> end =
-      testing::integrated<State<Real>>(state_of(x0), period, 6000, [&](const State<Real>& x, Real t) {
+  const State<Real> end = testing::integrated<State<Real>>(
+      {x0.q1, x0.q2, 0.0L, x0.q2_dot}, period, 6000, [&](const State<Real>& x, Real t) {
         const Real a = cycle_acceleration(amplitude, period, t);
         return State<Real>{x.q1_dot, x.q2_dot, a, x0.coupling * sine(x.q2) * a};
       });
