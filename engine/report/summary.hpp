@@ -14,6 +14,9 @@
 
 namespace steerstat {
 
+/// Level of the success rate's confidence interval.
+inline constexpr double success_rate_level = 0.95;
+
 /// What a set of trials says; statistics without data are empty.
 struct TrialStatistics {
   std::uint64_t completed{0};
@@ -39,13 +42,18 @@ struct Summary {
   unsigned threads{0};
 };
 
-/// Summarises finished trials. Sums run in trial order.
+/// Summarises finished trials. The same trials give the same bits, in whatever order and on however many threads they
+/// ran; `wall_s` and `threads` are the run's own.
 Summary summarise(const Study& study, const StudyResult& result);
 
-/// The summary as JSON (schemas/summary.schema.json), indented, ending in a newline.
+/// The summary as JSON (schemas/summary.schema.json), indented, ending in a newline. Every key is always there;
+/// statistics without data are null.
 std::string summary_json(const Summary& summary);
 
-/// The summary as text for a terminal. @param colour  use ANSI colours
+/// The summary as text for a terminal: UTF-8, about 100 columns, ending in a newline. Of many cells the best and the
+/// worst are shown.
+///
+/// @param colour  use ANSI colours
 std::string summary_text(const Summary& summary, bool colour);
 
 }  // namespace steerstat

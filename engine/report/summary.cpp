@@ -1,0 +1,70 @@
+#include "report/summary.hpp"
+
+#include "core/version.hpp"
+#include "study/plan.hpp"
+#include "study/spec_json.hpp"
+
+namespace steerstat {
+namespace {
+
+/// What of the trials the statistics are made from.
+struct Tally {
+  std::array<std::uint64_t, status_names.size()> outcomes{};
+  std::vector<double> settling_times;  // of converged trials
+  std::vector<double> cycles;          // of converged trials
+
+  void add(const TrialOutcome& outcome) {
+    ++outcomes[static_cast<std::size_t>(outcome.status)];
+    if (outcome.status != Status::converged) return;
+    settling_times.push_back(outcome.settling_time());
+    cycles.push_back(static_cast<double>(outcome.cycles));
+  }
+
+  [[nodiscard]] TrialStatistics statistics() const {
+    TrialStatistics result;
+    result.outcomes = outcomes;
+    for (const std::uint64_t count : outcomes) result.completed += count;
+    const std::uint64_t converged = outcomes[static_cast<std::size_t>(Status::converged)];
+    if (result.completed > 0) result.success_rate = wilson_interval(converged, result.completed, success_rate_level);
+    result.settling_time = describe(settling_times);
+    result.cycles = describe(cycles);
+    return result;
+  }
+};
+
+std::vector<Summary::Cell> summarise_cells(const Plan& plan, const TrialTable& trials) {
+  if (plan.sweep_values(0).empty()) return {};
+  std::vector<Tally> tallies(plan.cells());
+  for (std::size_t row = 0; row < trials.index.size(); ++row) {
+    tallies[plan.cell_of(trials.index[row])].add(trials.outcomes[row]);
+  }
+  std::vector<Summary::Cell> cells;
+  cells.reserve(tallies.size());
+  for (std::uint64_t cell = 0; cell < plan.cells(); ++cell) {
+    cells.push_back({plan.sweep_values(cell), tallies[cell].statistics()});
+  }
+  return cells;
+}
+
+}  // namespace
+
+Summary summarise(const Study& study, const StudyResult& result) {
+  const Plan plan(study);
+  Tally all;
+  for (const TrialOutcome& outcome : result.trials.outcomes) all.add(outcome);
+  Summary summary;
+  summary.id = study_id(study);
+  summary.name = study.name;
+  summary.spec_sha256 = spec_sha256(study);
+  summary.engine_version = engine_version();
+  summary.seed = study.sampling.seed;
+  summary.complete = result.complete;
+  summary.requested = plan.trials();
+  summary.all = all.statistics();
+  summary.cells = summarise_cells(plan, result.trials);
+  summary.wall_s = result.wall_s;
+  summary.threads = result.threads;
+  return summary;
+}
+
+}  // namespace steerstat

@@ -1,0 +1,83 @@
+#include <nlohmann/json.hpp>
+
+#include "report/summary.hpp"
+
+namespace steerstat {
+namespace {
+
+using Json = nlohmann::ordered_json;  // keys in the order of the interface's description
+
+Json number_or_null(std::optional<double> value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json success_rate_json(const std::optional<ProportionInterval>& rate) {
+  Json json = {{"estimate", nullptr}, {"ci_low", nullptr}, {"ci_high", nullptr}};
+  if (rate) json = {{"estimate", rate->estimate}, {"ci_low", rate->low}, {"ci_high", rate->high}};
+  json["level"] = rate ? rate->level : success_rate_level;
+  json["method"] = "wilson";
+  return json;
+}
+
+Json outcomes_json(const TrialStatistics& statistics) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < status_names.size(); ++i) json[std::string(status_names[i])] = statistics.outcomes[i];
+  return json;
+}
+
+Json sample_json(const std::optional<SampleStatistics>& sample) {
+  const auto value = [&](double SampleStatistics::*member) { return sample ? Json((*sample).*member) : Json(nullptr); };
+  return {{"mean", value(&SampleStatistics::mean)}, {"std", number_or_null(sample ? sample->std : std::nullopt)},
+          {"min", value(&SampleStatistics::min)},   {"p05", value(&SampleStatistics::p05)},
+          {"p50", value(&SampleStatistics::p50)},   {"p95", value(&SampleStatistics::p95)},
+          {"p99", value(&SampleStatistics::p99)},   {"max", value(&SampleStatistics::max)}};
+}
+
+void append_statistics(Json& json, std::uint64_t requested, const TrialStatistics& statistics) {
+  json["trials"] = {{"requested", requested}, {"completed", statistics.completed}};
+  json["success_rate"] = success_rate_json(statistics.success_rate);
+  json["outcomes"] = outcomes_json(statistics);
+  json["settling_time"] = sample_json(statistics.settling_time);
+  json["cycles"] = sample_json(statistics.cycles);
+}
+
+Json cells_json(const Summary& summary) {
+  Json cells = Json::array();
+  for (const Summary::Cell& cell : summary.cells) {
+    Json json;
+    json["sweep"] = Json::object();
+    for (const Plan::SweptValue& swept : cell.sweep) json["sweep"][swept.name] = swept.value;
+    append_statistics(json, summary.requested / summary.cells.size(), cell.statistics);
+    cells.push_back(std::move(json));
+  }
+  return cells;
+}
+
+Json performance_json(const Summary& summary) {
+  Json json = {{"wall_s", summary.wall_s}, {"trials_per_s", nullptr}, {"threads", summary.threads}};
+  if (summary.all.completed > 0 && summary.wall_s > 0.0) {
+    json["trials_per_s"] = static_cast<double>(summary.all.completed) / summary.wall_s;
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string summary_json(const Summary& summary) {
+  Json json;
+  json["study"] = {{"id", summary.id},
+                   {"name", summary.name},
+                   {"spec_sha256", summary.spec_sha256},
+                   {"engine_version", summary.engine_version},
+                   {"seed", summary.seed}};
+  json["complete"] = summary.complete;
+  append_statistics(json, summary.requested, summary.all);
+  json["cells"] = cells_json(summary);
+  json["gates"] = Json::array();
+  json["audit"] = nullptr;
+  json["performance"] = performance_json(summary);
+  // A name is the user's: were it not UTF-8, it must not cost the summary.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace steerstat

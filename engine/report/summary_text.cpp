@@ -1,0 +1,232 @@
+#include <fmt/color.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+#include "report/readable.hpp"
+#include "report/summary.hpp"
+#include "report/text_table.hpp"
+
+namespace steerstat {
+namespace {
+
+using Align = TextTable::Align;
+
+constexpr int bar_width = 40;
+constexpr std::size_t most_cells = 24;  // more are shortened to the best and the worst
+constexpr std::size_t best_cells = 15;
+constexpr std::size_t worst_cells = 5;
+const char* const no_data = "–";
+
+const fmt::text_style bold = fmt::emphasis::bold;
+const fmt::text_style faint = fmt::emphasis::faint;
+
+fmt::text_style style_of(Status status) {
+  if (status == Status::converged) return fg(fmt::terminal_color::green);
+  return fg(status == Status::timeout ? fmt::terminal_color::yellow : fmt::terminal_color::red);
+}
+
+std::string plural(std::uint64_t count, const char* noun) {
+  return fmt::format("{} {}{}", readable_count(count), noun, count == 1 ? "" : "s");
+}
+
+std::string heading(const Summary& summary, bool colour) {
+  std::string text = styled(printable(summary.name), bold, colour) + '\n';
+  std::string trials = plural(summary.requested, "trial");
+  if (const std::size_t cells = summary.cells.size(); cells > 0) {
+    trials += fmt::format(" ({} in each of {})", readable_count(summary.requested / cells), plural(cells, "cell"));
+  }
+  text +=
+      styled(fmt::format("{} · seed {} · id {} · engine {}", trials, summary.seed, summary.id, summary.engine_version),
+             faint, colour) +
+      '\n';
+  if (!summary.complete) {
+    text += styled(fmt::format("Incomplete: {} of {} finished; what follows is of those.",
+                               readable_count(summary.all.completed), plural(summary.requested, "trial")),
+                   fg(fmt::terminal_color::yellow) | bold, colour) +
+            '\n';
+  }
+  return text;
+}
+
+std::string interval_text(const ProportionInterval& rate, std::uint64_t trials) {
+  const std::string low = readable_share(rate.low, trials);
+  return fmt::format("{} to {}", low.substr(0, low.size() - 2), readable_share(rate.high, trials));
+}
+
+std::string success_text(const TrialStatistics& all, bool colour) {
+  if (!all.success_rate) return "  No trial has finished.\n";
+  const ProportionInterval& rate = *all.success_rate;
+  return fmt::format("  {}  {}   {} % interval {} (Wilson)\n  {}\n", styled("Success rate", bold, colour),
+                     styled(readable_share(rate.estimate, all.completed), bold, colour), 100.0 * rate.level,
+                     interval_text(rate, all.completed),
+                     styled(interval_bar(rate.low, rate.high, bar_width), style_of(Status::converged), colour));
+}
+
+std::string outcome_text(const TrialStatistics& all, bool colour) {
+  TextTable table({{"Outcome", Align::left}, {"Trials"}, {"Share"}, {"", Align::left}});
+  for (std::size_t i = 0; i < status_names.size(); ++i) {
+    const std::uint64_t count = all.outcomes[i];
+    const fmt::text_style style = count > 0 ? style_of(static_cast<Status>(i)) : faint;
+    const double share = static_cast<double>(count) / static_cast<double>(all.completed);
+    table.add_row({{std::string(status_names[i]), style},
+                   {readable_count(count), style},
+                   {count > 0 ? readable_share(share, all.completed) : no_data, style},
+                   {count > 0 ? interval_bar(share, share, bar_width / 2) : "", style}});
+  }
+  return table.text(colour);
+}
+
+std::string sample_text(const TrialStatistics& all, bool colour) {
+  TextTable table({{"Converged trials", Align::left},
+                   {"min"},
+                   {"5 %"},
+                   {"median"},
+                   {"95 %"},
+                   {"99 %"},
+                   {"max"},
+                   {"mean"},
+                   {"std"}});
+  const auto add = [&](const char* name, const std::optional<SampleStatistics>& sample, int decimals) {
+    if (!sample) return;
+    std::vector<TextTable::Cell> row{{name}};
+    const auto add_value = [&](double value) { row.push_back({fmt::format("{:.{}f}", value, decimals)}); };
+    for (const double value : {sample->min, sample->p05, sample->p50, sample->p95, sample->p99, sample->max}) {
+      add_value(value);
+    }
+    add_value(sample->mean);
+    sample->std ? add_value(*sample->std) : row.push_back({no_data});
+    row[3].style = bold;
+    table.add_row(std::move(row));
+  };
+  add("settling time [s]", all.settling_time, 2);
+  add("cycles", all.cycles, 1);
+  return table.text(colour);
+}
+
+/// A study of one trial: a table of its quantiles would say one number eight times.
+std::string single_text(const TrialStatistics& all, bool colour) {
+  const auto found = std::find(all.outcomes.begin(), all.outcomes.end(), 1U);
+  const auto status = static_cast<Status>(found - all.outcomes.begin());
+  std::string text = "  " + styled(std::string(name_of(status)), bold | style_of(status), colour);
+  if (all.settling_time && all.cycles) {
+    text += fmt::format(" after {:.3f} s, {}", all.settling_time->mean,
+                        plural(static_cast<std::uint64_t>(all.cycles->mean), "cycle"));
+  }
+  return text + '\n';
+}
+
+/// The last `parts` dotted parts of a name.
+std::string suffix(const std::string& name, std::size_t parts) {
+  std::size_t begin = name.size() + 1;
+  for (std::size_t i = 0; i < parts; ++i) {
+    const std::size_t dot = begin < 2 ? std::string::npos : name.rfind('.', begin - 2);
+    if (dot == std::string::npos) return name;
+    begin = dot + 1;
+  }
+  return name.substr(begin);
+}
+
+/// The swept inputs' names, without the leading parts that are not needed to tell them apart.
+std::vector<std::string> short_names(const std::vector<Plan::SweptValue>& sweep) {
+  constexpr std::size_t most_parts = 4;
+  std::vector<std::string> names;
+  for (std::size_t parts = 1; parts <= most_parts; ++parts) {
+    names.clear();
+    for (const Plan::SweptValue& swept : sweep) names.push_back(suffix(swept.name, parts));
+    if (std::set<std::string>(names.begin(), names.end()).size() == names.size()) break;
+  }
+  return names;
+}
+
+std::string failure_causes(const TrialStatistics& cell) {
+  std::string text;
+  for (std::size_t i = 0; i < status_names.size(); ++i) {
+    if (static_cast<Status>(i) == Status::converged || cell.outcomes[i] == 0) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", readable_count(cell.outcomes[i]), status_names[i]);
+  }
+  return text;
+}
+
+std::vector<TextTable::Cell> cell_row(const Summary::Cell& cell) {
+  const TrialStatistics& statistics = cell.statistics;
+  std::vector<TextTable::Cell> row;
+  for (const Plan::SweptValue& swept : cell.sweep) row.push_back({fmt::format("{:.6g}", swept.value)});
+  const auto& rate = statistics.success_rate;
+  row.push_back({rate ? readable_share(rate->estimate, statistics.completed) : no_data, bold});
+  row.push_back({rate ? interval_text(*rate, statistics.completed) : no_data});
+  const auto quantile = [](const std::optional<SampleStatistics>& sample, double SampleStatistics::*member,
+                           int decimals) {
+    return TextTable::Cell{sample ? fmt::format("{:.{}f}", (*sample).*member, decimals) : no_data};
+  };
+  row.push_back(quantile(statistics.settling_time, &SampleStatistics::p50, 2));
+  row.push_back(quantile(statistics.settling_time, &SampleStatistics::p95, 2));
+  row.push_back(quantile(statistics.cycles, &SampleStatistics::p50, 1));
+  row.push_back({failure_causes(statistics), faint});
+  return row;
+}
+
+/// The cells' numbers by falling success rate, then rising median settling time, then number.
+std::vector<std::size_t> ranking(const std::vector<Summary::Cell>& cells) {
+  std::vector<std::size_t> order(cells.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto key = [&](std::size_t i) {
+    const TrialStatistics& statistics = cells[i].statistics;
+    return std::pair(statistics.success_rate ? -statistics.success_rate->estimate : 1.0,
+                     statistics.settling_time ? statistics.settling_time->p50 : 0.0);
+  };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  return order;
+}
+
+std::string cells_text(const std::vector<Summary::Cell>& cells, bool colour) {
+  std::vector<TextTable::Column> columns;
+  for (std::string& name : short_names(cells.front().sweep)) columns.push_back({std::move(name)});
+  columns.insert(columns.end(), {{"Success"},
+                                 {fmt::format("{} % interval", 100.0 * success_rate_level)},
+                                 {"Median [s]"},
+                                 {"95 % [s]"},
+                                 {"Cycles"},
+                                 {"Failures", Align::left}});
+  TextTable table(columns);
+  if (cells.size() <= most_cells) {
+    for (const Summary::Cell& cell : cells) table.add_row(cell_row(cell));
+    return table.text(colour);
+  }
+  const std::vector<std::size_t> order = ranking(cells);
+  for (std::size_t i = 0; i < best_cells; ++i) table.add_row(cell_row(cells[order[i]]));
+  table.add_row(std::vector<TextTable::Cell>(columns.size(), {"⋮", faint}));
+  for (std::size_t i = order.size() - worst_cells; i < order.size(); ++i) table.add_row(cell_row(cells[order[i]]));
+  return table.text(colour) +
+         styled(fmt::format("  The {} best and {} worst of {} cells by success rate; the JSON summary has them all.\n",
+                            best_cells, worst_cells, readable_count(cells.size())),
+                faint, colour);
+}
+
+std::string performance_text(const Summary& summary, bool colour) {
+  if (summary.all.completed == 0 || !(summary.wall_s > 0.0)) return {};
+  const double rate = static_cast<double>(summary.all.completed) / summary.wall_s;
+  return styled(fmt::format("{} in {} on {}: {} trials/s", plural(summary.all.completed, "trial"),
+                            readable_duration(summary.wall_s), plural(summary.threads, "thread"), readable_rate(rate)),
+                faint, colour) +
+         '\n';
+}
+
+}  // namespace
+
+std::string summary_text(const Summary& summary, bool colour) {
+  std::string text = heading(summary, colour) + '\n';
+  if (summary.all.completed == 1 && summary.cells.empty()) {
+    text += single_text(summary.all, colour);
+  } else {
+    text += success_text(summary.all, colour);
+    if (summary.all.completed > 0) text += '\n' + outcome_text(summary.all, colour);
+    if (summary.all.settling_time) text += '\n' + sample_text(summary.all, colour);
+    if (!summary.cells.empty()) text += '\n' + cells_text(summary.cells, colour);
+  }
+  return text + '\n' + performance_text(summary, colour);
+}
+
+}  // namespace steerstat
