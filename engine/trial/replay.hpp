@@ -10,11 +10,11 @@ namespace steerstat {
 
 /// One moment of a trajectory.
 struct TrajectorySample {
-  double t;                ///< [s]
+  double t;  ///< [s]
   State<double> state;
-  double a;                ///< [m/s^2] acceleration the controller asks of the first joint
-  double tau;              ///< [N] force on the first joint
-  PhaseKind phase;         ///< the phase under way
+  double a;         ///< [m/s^2] acceleration the controller asks of the first joint
+  double tau;       ///< [N] force on the first joint
+  PhaseKind phase;  ///< the phase under way
 };
 
 /// A trial's whole course.

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "control/cycle.hpp"
+#include "control/phase.hpp"
+#include "core/state.hpp"
+#include "robot/plant.hpp"
+
+namespace steerstat {
+
+/// The plant under its controller, between two decisions: what every integrator advances and what replay reports.
+///
+/// @tparam Real  double, a SIMD pack, or any number type with the field operations.
+template <class Real>
+struct ClosedLoop {
+  PlantConstants<Real> plant;    ///< what is true
+  PlantConstants<Real> nominal;  ///< what the controller believes
+  Real kp;                       ///< [1/s^2] of (10)
+  Real kd;                       ///< [1/s] of (10)
+  Real q1_goal;                  ///< [m]
+};
+
+/// (10). @return a [m/s^2]
+template <class Real>
+Real align_acceleration(const ClosedLoop<Real>& loop, const State<Real>& x) {
+  return loop.kp * (loop.q1_goal - x.q1) - loop.kd * x.q1_dot;
+}
+
+/// The acceleration a [m/s^2] that `phase` asks of the first joint: (10), 0 or (11).
+///
+/// @param t  [s] since the phase's start
+template <class Real>
+Real commanded_acceleration(const ClosedLoop<Real>& loop, const Phase& phase, const Real& t, const State<Real>& x) {
+  switch (phase.kind) {
+    case PhaseKind::align:
+      return align_acceleration(loop, x);
+    case PhaseKind::drift:
+      return Real(0.0);
+    case PhaseKind::contraction:
+    case PhaseKind::swing:
+      return cycle_acceleration(Real(phase.amplitude), Real(phase.duration), t);
+  }
+  return Real(0.0);
+}
+
+/// dx/dt under the acceleration a: the true plant, driven by the force that the nominal one would need.
+///
+/// @param s, c  sin q2 and cos q2
+/// @return the time derivative of each field of x
+template <class Real>
+State<Real> derivative(const ClosedLoop<Real>& loop, const Real& a, const State<Real>& x, const Real& s,
+                       const Real& c) {
+  const Real tau = linearising_force(loop.nominal, a, s, c, x.q2_dot);
+  const Accelerations<Real> ddot = accelerations(loop.plant, x, s, c, tau);
+  return {x.q1_dot, x.q2_dot, ddot.q1_ddot, ddot.q2_ddot};
+}
+
+/// How many guards a phase has, used or not.
+inline constexpr std::size_t guard_count = 4;
+
+/// The guards of `phase` as functions of the state; positive where they hold off, infinite where unused.
+///
+/// @return (guard_count) the active error [m, m/s], q2 above its low bound [rad], q2 below its high bound [rad], and
+/// the
+///         speed above its floor [rad/s]; see Phase for when they fire
+inline std::array<double, guard_count> guards(const Phase& phase, double q1_goal, const State<double>& x) {
+  const double e = x.q1 - q1_goal;
+  const double active =
+      phase.active_tolerance < 0.0 ? Phase::unbounded : std::sqrt(e * e + x.q1_dot * x.q1_dot) - phase.active_tolerance;
+  return {active, x.q2 - phase.q2_low, phase.q2_high - x.q2, phase.direction * x.q2_dot - phase.speed_floor};
+}
+
+}  // namespace steerstat

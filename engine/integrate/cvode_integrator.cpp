@@ -1,0 +1,257 @@
+#include "integrate/cvode_integrator.hpp"
+
+#include <cvode/cvode.h>
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_context.h>
+#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <type_traits>
+
+#include "core/errors.hpp"
+#include "integrate/step_polynomial.hpp"
+
+namespace steerstat {
+namespace {
+
+constexpr sunindextype state_size = 4;
+constexpr double guard_precision = 1e-10;  // [s] crossings closer than this are one
+constexpr long most_steps = 10'000'000;    // in one phase; the pace of a step a microsecond makes more of them a hang
+
+/// An N_Vector of a state, and its end.
+struct VectorDeleter {
+  void operator()(N_Vector v) const { N_VDestroy(v); }
+};
+using Vector = std::unique_ptr<std::remove_pointer_t<N_Vector>, VectorDeleter>;
+
+struct NonlinearSolverDeleter {
+  void operator()(SUNNonlinearSolver solver) const { SUNNonlinSolFree(solver); }
+};
+using NonlinearSolver = std::unique_ptr<std::remove_pointer_t<SUNNonlinearSolver>, NonlinearSolverDeleter>;
+
+struct CvodeDeleter {
+  void operator()(void* memory) const { CVodeFree(&memory); }
+};
+using Cvode = std::unique_ptr<void, CvodeDeleter>;
+
+State<double> state_of(N_Vector v) {
+  const realtype* y = N_VGetArrayPointer(v);
+  return {y[0], y[1], y[2], y[3]};
+}
+
+void store(const State<double>& x, N_Vector v) {
+  realtype* y = N_VGetArrayPointer(v);
+  y[0] = x.q1;
+  y[1] = x.q2;
+  y[2] = x.q1_dot;
+  y[3] = x.q2_dot;
+}
+
+bool is_finite(const State<double>& x) {
+  return std::isfinite(x.q1) && std::isfinite(x.q2) && std::isfinite(x.q1_dot) && std::isfinite(x.q2_dot);
+}
+
+void require(bool succeeded, const char* call) {
+  if (!succeeded) throw RunFailure(std::string("SUNDIALS cannot be set up: ") + call + " failed");
+}
+
+// CVODE would print to stderr; its return codes say enough.
+void stay_silent(int, const char*, const char*, char*, void*) {}
+
+/// What CVODE's callbacks see of the phase under way; times are since the phase's start.
+struct PhaseContext {
+  ClosedLoop<double> loop;
+  Phase phase;
+};
+
+State<double> closed_loop_rate(const PhaseContext& context, double t, const State<double>& x) {
+  const double a = commanded_acceleration(context.loop, context.phase, t, x);
+  // The C library's sine on purpose: the reference shares no elementary function with the engine it is to check.
+  return derivative(context.loop, a, x, std::sin(x.q2), std::cos(x.q2));
+}
+
+int right_hand_side(realtype t, N_Vector y, N_Vector y_dot, void* user) {
+  const State<double> rate = closed_loop_rate(*static_cast<const PhaseContext*>(user), t, state_of(y));
+  store(rate, y_dot);
+  return is_finite(rate) ? 0 : 1;  // 1: try again with a shorter step
+}
+
+int root_functions(realtype t, N_Vector y, realtype* g, void* user) {
+  const auto& [loop, phase] = *static_cast<const PhaseContext*>(user);
+  const std::array<double, guard_count> values = guards(phase, loop.q1_goal, state_of(y));
+  for (std::size_t i = 0; i < guard_count; ++i) {
+    // CVODE puts a function that starts at exactly 0 out of action, and would leave it so in phases to come.
+    g[i] = (t == 0.0 && values[i] == 0.0) ? -std::numeric_limits<double>::min() : values[i];
+  }
+  return 0;
+}
+
+}  // namespace
+
+struct CvodeIntegrator::Solver final : DenseOutput {
+  explicit Solver(double tolerance);
+
+  Arrival advance(double t0, const State<double>& x0, double t_end, StepObserver* observer);
+
+  /// The state at t [s] since the trial's start, within the last step.
+  [[nodiscard]] State<double> at(double t) const override { return interpolate(t - origin); }
+
+  [[nodiscard]] State<double> interpolate(double t) const;
+  [[nodiscard]] StepPolynomial step_polynomial(double from) const;
+
+  /// A moment of the phase, with what the guards need of it.
+  struct Moment {
+    double t;  // [s] since the phase's start
+    State<double> x;
+    std::array<double, guard_count> guards;
+    std::array<double, guard_count> rates;  // bounds on |d guard / dt|
+  };
+  [[nodiscard]] Moment moment(double t, const State<double>& x) const;
+  std::optional<double> find_crossing(const Moment& before, const Moment& after, bool rooted);
+
+  sundials::Context context;
+  Vector y;
+  Vector work;
+  NonlinearSolver nonlinear_solver;
+  Cvode cvode;
+  PhaseContext user{};
+  double origin{0.0};                     // [s] the phase's start
+  std::array<bool, guard_count> armed{};  // the guard has been positive in this phase
+};
+
+CvodeIntegrator::Solver::Solver(double tolerance)
+    : y(N_VNew_Serial(state_size, context)),
+      work(N_VNew_Serial(state_size, context)),
+      nonlinear_solver(y ? SUNNonlinSol_FixedPoint(y.get(), 0, context) : nullptr),
+      cvode(CVodeCreate(CV_ADAMS, context)) {
+  require(y && work, "N_VNew_Serial");
+  require(nonlinear_solver != nullptr, "SUNNonlinSol_FixedPoint");
+  require(cvode != nullptr, "CVodeCreate");
+  void* memory = cvode.get();
+  std::array<int, guard_count> falling{};
+  falling.fill(-1);
+  N_VConst(0.0, y.get());
+  require(CVodeSetErrHandlerFn(memory, stay_silent, nullptr) == CV_SUCCESS, "CVodeSetErrHandlerFn");
+  require(CVodeInit(memory, right_hand_side, 0.0, y.get()) == CV_SUCCESS, "CVodeInit");
+  require(CVodeSetUserData(memory, &user) == CV_SUCCESS, "CVodeSetUserData");
+  require(CVodeSStolerances(memory, tolerance, tolerance) == CV_SUCCESS, "CVodeSStolerances");
+  require(CVodeSetNonlinearSolver(memory, nonlinear_solver.get()) == CV_SUCCESS, "CVodeSetNonlinearSolver");
+  require(CVodeSetMinStep(memory, least_step) == CV_SUCCESS, "CVodeSetMinStep");
+  require(CVodeSetMaxHnilWarns(memory, -1) == CV_SUCCESS, "CVodeSetMaxHnilWarns");
+  require(CVodeRootInit(memory, guard_count, root_functions) == CV_SUCCESS, "CVodeRootInit");
+  require(CVodeSetRootDirection(memory, falling.data()) == CV_SUCCESS, "CVodeSetRootDirection");
+  require(CVodeSetNoInactiveRootWarn(memory) == CV_SUCCESS, "CVodeSetNoInactiveRootWarn");
+}
+
+State<double> CvodeIntegrator::Solver::interpolate(double t) const {
+  double now = 0.0;
+  double width = 0.0;
+  CVodeGetCurrentTime(cvode.get(), &now);
+  CVodeGetLastStep(cvode.get(), &width);
+  // Rounding may put t a little outside the step, where CVODE refuses.
+  CVodeGetDky(cvode.get(), std::clamp(t, now - width, now), 0, work.get());
+  return state_of(work.get());
+}
+
+/// The last step's dense output. @param from  [s] its start
+StepPolynomial CvodeIntegrator::Solver::step_polynomial(double from) const {
+  int order = 0;
+  double now = 0.0;
+  CVodeGetLastOrder(cvode.get(), &order);
+  CVodeGetCurrentTime(cvode.get(), &now);
+  StepPolynomial step;
+  step.order = static_cast<std::size_t>(order);
+  double scale = 1.0;  // width^k / k!
+  for (int k = 0; k <= order; ++k) {
+    if (k > 0) scale *= (now - from) / k;
+    CVodeGetDky(cvode.get(), from, k, work.get());
+    const State<double> d = state_of(work.get());
+    step.coefficients[static_cast<std::size_t>(k)] = {scale * d.q1, scale * d.q2, scale * d.q1_dot, scale * d.q2_dot};
+  }
+  return step;
+}
+
+CvodeIntegrator::Solver::Moment CvodeIntegrator::Solver::moment(double t, const State<double>& x) const {
+  const State<double> rate = closed_loop_rate(user, t, x);
+  const double turning = std::abs(rate.q2);
+  return {t,
+          x,
+          guards(user.phase, user.loop.q1_goal, x),
+          {std::hypot(rate.q1, rate.q1_dot), turning, turning, std::abs(rate.q2_dot)}};
+}
+
+/// The first time [s] a guard fires in the step from `before` to `after`, other than at `after` itself.
+///
+/// CVODE looks at a step's ends, so it misses a guard that dips below zero and returns, and of several crossings it may
+/// find any. The step's polynomial is searched wherever a guard moves fast enough to have dipped.
+///
+/// @param rooted  whether `after` is a root that CVODE found
+std::optional<double> CvodeIntegrator::Solver::find_crossing(const Moment& before, const Moment& after, bool rooted) {
+  constexpr double rate_margin = 4.0;  // how much faster than at its ends a guard may move within a step
+  std::optional<StepPolynomial> step;
+  std::optional<double> first;
+  double width = 0.0;
+  CVodeGetLastStep(cvode.get(), &width);
+  for (std::size_t i = 0; i < guard_count; ++i) {
+    if (!(before.guards[i] < Phase::unbounded)) continue;
+    const double reach = rate_margin * width * std::max(before.rates[i], after.rates[i]);
+    const bool apart = before.guards[i] > 0.0 && after.guards[i] > 0.0 && before.guards[i] + after.guards[i] > reach;
+    if (armed[i] && apart) continue;
+    if (!step) step = step_polynomial(before.t);
+    const auto fraction = first_crossing(*step, user.phase, user.loop.q1_goal, i, armed[i]);
+    if (!fraction) continue;
+    const double t = before.t + *fraction * width;
+    if (!first || t < *first) first = t;
+  }
+  const bool same_as_root = rooted && first && *first > after.t - guard_precision;
+  return same_as_root ? std::nullopt : first;
+}
+
+Arrival CvodeIntegrator::Solver::advance(double t0, const State<double>& x0, double t_end, StepObserver* observer) {
+  const double duration = t_end - t0;
+  if (!(duration > 0.0)) return {t0, x0, Cause::time};
+  if (!is_finite(x0)) return {t0, x0, Cause::failure};
+  origin = t0;
+  store(x0, y.get());
+  if (CVodeReInit(cvode.get(), 0.0, y.get()) != CV_SUCCESS) return {t0, x0, Cause::failure};
+  if (CVodeSetStopTime(cvode.get(), duration) != CV_SUCCESS) return {t0, x0, Cause::failure};
+
+  Moment before = moment(0.0, x0);
+  for (std::size_t i = 0; i < guard_count; ++i) armed[i] = before.guards[i] > 0.0;
+  for (long steps = 0; steps < most_steps; ++steps) {
+    double now = 0.0;
+    const int flag = CVode(cvode.get(), duration, y.get(), &now, CV_ONE_STEP);
+    if (flag < 0) return {t0 + before.t, before.x, Cause::failure};
+    const bool rooted = flag == CV_ROOT_RETURN;
+    const bool ended = flag == CV_TSTOP_RETURN;
+    const Moment after = moment(now, state_of(y.get()));
+    const std::optional<double> crossing = find_crossing(before, after, rooted);
+    const double t = ended && !crossing ? t_end : std::min(t0 + crossing.value_or(now), t_end);
+    if (observer != nullptr) observer->step(t0 + before.t, t, *this);
+    if (crossing) return {t, interpolate(*crossing), Cause::guard};
+    if (rooted) return {t, after.x, Cause::guard};
+    if (ended) return {t, after.x, Cause::time};
+    before = after;
+  }
+  return {t0 + before.t, before.x, Cause::failure};
+}
+
+CvodeIntegrator::CvodeIntegrator(double tolerance) : solver_(std::make_unique<Solver>(tolerance)) {}
+CvodeIntegrator::~CvodeIntegrator() = default;
+CvodeIntegrator::CvodeIntegrator(CvodeIntegrator&&) noexcept = default;
+CvodeIntegrator& CvodeIntegrator::operator=(CvodeIntegrator&&) noexcept = default;
+
+Arrival CvodeIntegrator::advance(const ClosedLoop<double>& loop, const Phase& phase, double t0, const State<double>& x0,
+                                 double t_end, StepObserver* observer) {
+  solver_->user = {loop, phase};
+  return solver_->advance(t0, x0, t_end, observer);
+}
+
+}  // namespace steerstat

@@ -1,0 +1,54 @@
+#include "integrate/step_polynomial.hpp"
+
+#include <span>
+
+namespace steerstat {
+namespace {
+
+using Coefficients = std::array<double, highest_degree + 1>;
+
+/// scale * field + offset, as a polynomial. @return its number of coefficients
+std::size_t linear_guard(const StepPolynomial& step, double State<double>::*field, double scale, double offset,
+                         Coefficients& p) {
+  for (std::size_t k = 0; k <= step.order; ++k) p[k] = scale * (step.coefficients[k].*field);
+  p[0] += offset;
+  return step.order + 1;
+}
+
+/// (q1 - q1_goal)^2 + q1_dot^2 - tolerance^2, which has the signs of the active error's guard.
+std::size_t active_guard(const StepPolynomial& step, double q1_goal, double tolerance, Coefficients& p) {
+  p.fill(0.0);
+  const auto error = [&](std::size_t k) { return step.coefficients[k].q1 - (k == 0 ? q1_goal : 0.0); };
+  for (std::size_t i = 0; i <= step.order; ++i) {
+    for (std::size_t k = 0; k <= step.order; ++k) {
+      p[i + k] += error(i) * error(k) + step.coefficients[i].q1_dot * step.coefficients[k].q1_dot;
+    }
+  }
+  p[0] -= tolerance * tolerance;
+  return 2 * step.order + 1;
+}
+
+std::size_t guard_polynomial(const StepPolynomial& step, const Phase& phase, double q1_goal, std::size_t guard,
+                             Coefficients& p) {
+  switch (guard) {
+    case 0:
+      return active_guard(step, q1_goal, phase.active_tolerance, p);
+    case 1:
+      return linear_guard(step, &State<double>::q2, 1.0, -phase.q2_low, p);
+    case 2:
+      return linear_guard(step, &State<double>::q2, -1.0, phase.q2_high, p);
+    default:
+      return linear_guard(step, &State<double>::q2_dot, phase.direction, -phase.speed_floor, p);
+  }
+}
+
+}  // namespace
+
+std::optional<double> first_crossing(const StepPolynomial& step, const Phase& phase, double q1_goal, std::size_t guard,
+                                     bool& armed) {
+  Coefficients p;
+  const std::size_t size = guard_polynomial(step, phase, q1_goal, guard, p);
+  return first_descent(std::span(p).first(size), armed);
+}
+
+}  // namespace steerstat

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "integrate/cvode_integrator.hpp"
+#include "trial/runner.hpp"
+
+namespace steerstat {
+
+/// Runs trials one after another on the reference integrator. Not thread-safe: one runner a thread.
+class CvodeRunner final : public TrialRunner {
+ public:
+  /// @throws RunFailure where SUNDIALS cannot be set up
+  explicit CvodeRunner(double tolerance);
+
+  using TrialRunner::run;
+  void run(TrialStream& stream) override;
+
+ private:
+  CvodeIntegrator integrator_;
+};
+
+}  // namespace steerstat

@@ -1,0 +1,66 @@
+#include "trial/replay.hpp"
+
+#include <cmath>
+
+#include "core/errors.hpp"
+#include "integrate/cvode_integrator.hpp"
+#include "trial/course.hpp"
+
+namespace steerstat {
+namespace {
+
+/// Takes the samples of one phase.
+class PhaseSampler final : public StepObserver {
+ public:
+  PhaseSampler(const ClosedLoop<double>& loop, const Phase& phase, double start, double interval,
+               std::vector<TrajectorySample>& samples)
+      : loop_(loop),
+        phase_(phase),
+        start_(start),
+        interval_(interval),
+        next_(std::floor(start / interval) + 1.0),
+        samples_(samples) {}
+
+  void take(double t, const State<double>& x) {
+    const double a = commanded_acceleration(loop_, phase_, t - start_, x);
+    const double tau = linearising_force(loop_.nominal, a, std::sin(x.q2), std::cos(x.q2), x.q2_dot);
+    samples_.push_back({t, x, a, tau, phase_.kind});
+  }
+
+  /// Takes the multiples of the interval in [from, to), so that a phase's end is taken once, as its end.
+  void step(double, double to, const DenseOutput& output) override {
+    for (; next_ * interval_ < to; next_ += 1.0) {
+      if (next_ * interval_ > start_) take(next_ * interval_, output.at(next_ * interval_));
+    }
+  }
+
+ private:
+  const ClosedLoop<double>& loop_;
+  const Phase& phase_;
+  double start_;
+  double interval_;
+  double next_;  // the next sample, in intervals
+  std::vector<TrajectorySample>& samples_;
+};
+
+}  // namespace
+
+Trajectory replay(const TrialParameters& parameters, const IntegratorChoice& choice, double interval) {
+  if (!(interval > 0.0)) throw BadUsage("the sampling interval must be positive");
+  if (choice.method != IntegratorChoice::Method::cvode) {
+    throw RunFailure("the lockstep engine is not built; use integrator.method = \"cvode\"");
+  }
+  const ClosedLoop<double> loop = closed_loop_of(parameters);
+  CvodeIntegrator integrator(choice.tolerance);
+  Trajectory trajectory;
+  trajectory.outcome = run_course(parameters, [&](const Phase& phase, double t, const State<double>& x, double t_end) {
+    PhaseSampler sampler(loop, phase, t, interval, trajectory.samples);
+    sampler.take(t, x);
+    const Arrival arrival = integrator.advance(loop, phase, t, x, t_end, &sampler);
+    sampler.take(arrival.t, arrival.state);
+    return arrival;
+  });
+  return trajectory;
+}
+
+}  // namespace steerstat

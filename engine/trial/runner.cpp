@@ -1,0 +1,50 @@
+#include "trial/runner.hpp"
+
+#include "core/errors.hpp"
+#include "trial/cvode_runner.hpp"
+
+namespace steerstat {
+namespace {
+
+/// One trial, and its outcome when it is done.
+class SingleTrial final : public TrialStream {
+ public:
+  explicit SingleTrial(const TrialParameters& parameters) : parameters_(parameters) {}
+
+  bool next(std::uint64_t& index, TrialParameters& parameters) override {
+    if (taken_) return false;
+    taken_ = true;
+    index = 0;
+    parameters = parameters_;
+    return true;
+  }
+
+  void finished(std::uint64_t, const TrialOutcome& outcome) override { outcome_ = outcome; }
+
+  [[nodiscard]] const TrialOutcome& outcome() const { return outcome_; }
+
+ private:
+  TrialParameters parameters_;
+  TrialOutcome outcome_{};
+  bool taken_{false};
+};
+
+}  // namespace
+
+TrialOutcome TrialRunner::run(const TrialParameters& parameters) {
+  SingleTrial trial(parameters);
+  run(trial);
+  return trial.outcome();
+}
+
+std::unique_ptr<TrialRunner> make_runner(const IntegratorChoice& integrator) {
+  switch (integrator.method) {
+    case IntegratorChoice::Method::cvode:
+      return std::make_unique<CvodeRunner>(integrator.tolerance);
+    case IntegratorChoice::Method::lockstep:
+      break;
+  }
+  throw RunFailure("the lockstep engine is not built; use integrator.method = \"cvode\"");
+}
+
+}  // namespace steerstat
