@@ -1,0 +1,131 @@
+#include "output.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "core/errors.hpp"
+
+namespace steerstat {
+namespace {
+
+std::string reason(int error) {
+  return std::generic_category().message(error);
+}
+
+/// Writes all of `text` to a descriptor. @return 0 or the error number
+int write_all(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t count = write(descriptor, text.data(), text.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return errno;
+    text.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return 0;
+}
+
+/// @return the value of an environment variable, "" where it is not set
+std::string_view environment(const char* name) {
+  const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nothing here sets the environment
+  return value == nullptr ? std::string_view() : std::string_view(value);
+}
+
+bool is_terminal(StandardStream stream) {
+  return isatty(static_cast<int>(stream)) == 1;
+}
+
+/// A file descriptor that closes itself.
+class Descriptor {
+ public:
+  explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
+  ~Descriptor() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  [[nodiscard]] int get() const { return descriptor_; }
+  /// @return 0 or the error number: on some file systems the last writes fail here
+  int close() { return ::close(std::exchange(descriptor_, -1)) == 0 ? 0 : errno; }
+
+ private:
+  int descriptor_;
+};
+
+[[noreturn]] void fail_to_write(const std::filesystem::path& path, int error) {
+  throw RunFailure(fmt::format("cannot write {} ({})", path.string(), reason(error)));
+}
+
+}  // namespace
+
+void secure_standard_streams() {
+  // open() takes the lowest free number, so going up fills each gap. Reading from what should be written to, and the
+  // other way round, fails: the error is noticed where it matters.
+  for (int descriptor = 0; descriptor <= 2; ++descriptor) {
+    if (fcntl(descriptor, F_GETFD) == -1 && errno == EBADF) {
+      if (open("/dev/null", descriptor == 0 ? O_WRONLY : O_RDONLY) != descriptor) std::_Exit(4);
+    }
+  }
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+void print(std::string_view text) {
+  if (const int error = write_all(STDOUT_FILENO, text); error != 0) {
+    throw RunFailure("cannot write to standard output (" + reason(error) + ")");
+  }
+}
+
+void tell_raw(std::string_view text) {
+  write_all(STDERR_FILENO, text);
+}
+
+void tell(std::string_view message) {
+  tell_raw(fmt::format("steerstat: {}\n", message));
+}
+
+void write_text(const std::filesystem::path& path, std::string_view text) {
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  const bool in_place = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+  // Through a link, the file it names is replaced, not the link.
+  std::filesystem::path target = std::filesystem::is_regular_file(status) ? std::filesystem::canonical(path) : path;
+  const std::filesystem::path written =
+      in_place ? path : target.parent_path() / fmt::format(".tmp-{}-{}", getpid(), target.filename().string());
+
+  Descriptor file(open(written.c_str(), O_WRONLY | O_CLOEXEC | (in_place ? 0 : O_CREAT | O_TRUNC), 0666));
+  if (file.get() < 0) fail_to_write(path, errno);
+  int error = write_all(file.get(), text);
+  if (error == 0 && !in_place && fsync(file.get()) != 0) error = errno;
+  if (const int closing = file.close(); error == 0) error = closing;
+  if (error == 0 && !in_place && std::rename(written.c_str(), target.c_str()) != 0) error = errno;
+  if (error == 0) return;
+  if (!in_place) unlink(written.c_str());
+  fail_to_write(path, error);
+}
+
+bool redraws_lines(StandardStream stream) {
+  const std::string_view terminal = environment("TERM");
+  return is_terminal(stream) && !terminal.empty() && terminal != "dumb";
+}
+
+bool wants_colour(StandardStream stream) {
+  return redraws_lines(stream) && environment("NO_COLOR").empty();
+}
+
+unsigned terminal_columns() {
+  winsize size{};
+  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
+  return 80;
+}
+
+}  // namespace steerstat

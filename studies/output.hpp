@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace steerstat {
+
+enum class StandardStream : int { output = 1, error = 2 };
+
+/// Makes the standard streams safe to write to: a closed one gets a descriptor that refuses writes, so that no file
+/// opened later is mistaken for it, and a reader that goes away is an error to report, not a signal to die of.
+void secure_standard_streams();
+
+/// Writes results to standard output. @throws RunFailure where not all of it arrives (closed, full disk)
+void print(std::string_view text);
+
+/// Writes one message, "steerstat: MESSAGE" and a line end, to standard error. Never fails: there is nowhere to say so.
+void tell(std::string_view message);
+
+/// Writes text to standard error as it is.
+void tell_raw(std::string_view text);
+
+/// Writes a text file under a temporary name beside `path` and renames it, so that nobody reads half of it. A device or
+/// a pipe is written to in place. @throws RunFailure
+void write_text(const std::filesystem::path& path, std::string_view text);
+
+/// Whether the stream is a terminal that moves its cursor on command.
+bool redraws_lines(StandardStream stream);
+
+/// Whether colours are welcome on the stream: a terminal, and NO_COLOR not set (https://no-color.org).
+bool wants_colour(StandardStream stream);
+
+/// Width of the terminal on standard error, 80 where it does not say.
+unsigned terminal_columns();
+
+}  // namespace steerstat

@@ -1,0 +1,109 @@
+#include "trial/replay.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <memory>
+
+#include "commands.hpp"
+#include "core/errors.hpp"
+#include "core/version.hpp"
+#include "output.hpp"
+#include "store/result_file.hpp"
+#include "study/plan.hpp"
+#include "table_text.hpp"
+#include "trajectory_json.hpp"
+
+namespace steerstat {
+namespace {
+
+constexpr const char* epilogue = R"(The trial is recomputed from the parameters stored in the file, and must end in the
+same bits as the stored trial. Columns: t,q1,q2,q1_dot,q2_dot,a,tau,phase.
+
+Examples:
+  steerstat replay result.h5 --trial 17 | less
+  steerstat replay result.h5 --trial 17 -o trial-17.json)";
+
+struct Request {
+  std::string file;
+  std::string trial;
+  std::string output{"-"};
+};
+
+/// Where trial `text` stands among the stored rows. @throws BadUsage naming the trials there are
+std::size_t row_of(const std::string& text, const StoredStudy& stored, const std::string& file) {
+  const std::vector<std::uint64_t>& indices = stored.result.trials.index;
+  if (indices.empty())
+    throw BadUsage(fmt::format("{} holds no trials: its run was interrupted before the first", file));
+  std::uint64_t index = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
+  const auto found = std::lower_bound(indices.begin(), indices.end(), index);
+  const bool number = error == std::errc() && end == text.data() + text.size();
+  if (!number || found == indices.end() || *found != index) {
+    throw BadUsage(fmt::format("--trial: there is no trial {} in {}; it holds trials {} to {}", text, file,
+                               indices.front(), indices.back()));
+  }
+  return static_cast<std::size_t>(found - indices.begin());
+}
+
+void require_known_format(const std::filesystem::path& output) {
+  if (output == "-" || output.extension() == ".csv" || output.extension() == ".json") return;
+  throw BadUsage(
+      fmt::format("cannot write a trajectory to {} (unknown format); end the name in .csv or .json", output.string()));
+}
+
+void require_same_end(const TrialOutcome& now, const TrialOutcome& then, const StoredStudy& stored,
+                      const std::string& file, std::uint64_t index) {
+  if (same_bits(now, then)) return;
+  std::string why = "the file was computed by another build or on another machine, or was changed";
+  if (stored.engine_version != engine_version()) {
+    why = fmt::format("the file is of engine {}, this is {}; replay it with that version", stored.engine_version,
+                      engine_version());
+  }
+  throw RunFailure(fmt::format("trial {} of {} cannot be replayed: it ended {} at {} s, the file says {} at {} s ({})",
+                               index, file, name_of(now.status), now.end_time, name_of(then.status), then.end_time,
+                               why));
+}
+
+ExitCode run(const Request& request) {
+  const std::filesystem::path output(request.output);
+  require_known_format(output);
+  if (output != "-") require_writable(output);
+  const StoredStudy stored = read_result(request.file);
+  const std::size_t row = row_of(request.trial, stored, request.file);
+  const std::uint64_t index = stored.result.trials.index[row];
+
+  const Plan plan(stored.study);
+  std::vector<double> values;
+  for (const std::vector<double>& column : stored.parameters) values.push_back(column[row]);
+  const Trajectory trajectory = replay(plan.parameters_with(values), stored.study.integrator);
+  require_same_end(trajectory.outcome, stored.result.trials.outcomes[row], stored, request.file, index);
+
+  const std::string text = output.extension() == ".json"
+                               ? trajectory_json(stored.study, index, plan.varying(), values, trajectory)
+                               : trajectory_csv(trajectory);
+  if (output == "-") {
+    print(text);
+  } else {
+    write_text(output, text);
+    tell(fmt::format("wrote trial {} ({} at {:.3f} s) to {}", index, name_of(trajectory.outcome.status),
+                     trajectory.outcome.end_time, output.string()));
+  }
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_replay(CLI::App& program, ExitCode& exit_code) {
+  CLI::App* command = program.add_subcommand("replay", "Recompute the trajectory of one trial of a result file");
+  const auto request = std::make_shared<Request>();
+  command->add_option("RESULT", request->file, "The result file (.h5)")->required();
+  command->add_option("--trial", request->trial, "The trial's index")->required();
+  command->add_option("-o,--output", request->output, "Write .csv or .json instead of CSV to standard output");
+  command->footer(epilogue);
+  command->callback([request, &exit_code] { exit_code = run(*request); });
+}
+
+}  // namespace steerstat

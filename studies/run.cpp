@@ -1,0 +1,133 @@
+#include "study/run.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "commands.hpp"
+#include "core/errors.hpp"
+#include "interruption.hpp"
+#include "output.hpp"
+#include "progress_display.hpp"
+#include "report/readable.hpp"
+#include "report/summary.hpp"
+#include "spec_file.hpp"
+#include "store/result_file.hpp"
+
+namespace steerstat {
+namespace {
+
+constexpr const char* epilogue = R"(The summary goes to standard output as a table; progress and messages go to standard
+error. Without -o the trials themselves are not kept.
+
+The first interrupt (Ctrl-C, SIGTERM) finishes the trials in flight, writes what is done with "complete" false and
+exits 130; a second one ends at once.
+
+Examples:
+  steerstat run study.json
+  steerstat run study.json -o result.h5 --summary summary.json
+  steerstat run study.json --summary - --no-progress | jq .success_rate
+  generate-study | steerstat run - -o result.h5)";
+
+struct Request {
+  std::string spec;
+  std::string result;   ///< "": not kept
+  std::string summary;  ///< "": not written; "-": standard output, in the table's place
+  unsigned threads{0};
+  bool no_progress{false};
+};
+
+bool same_file(const std::string& a, const std::string& b) {
+  std::error_code no_such_file;
+  return std::filesystem::weakly_canonical(a, no_such_file) == std::filesystem::weakly_canonical(b, no_such_file);
+}
+
+/// Refuses outputs that would overwrite the spec or each other, and those that cannot be written, before any trial
+/// runs.
+void check_outputs(const Request& request) {
+  const bool summary_is_file = !request.summary.empty() && request.summary != "-";
+  if (request.result == "-") {
+    throw BadUsage("-o: a result file cannot go to standard output (HDF5 is not a stream); name a file");
+  }
+  for (const std::string& output : {request.result, summary_is_file ? request.summary : ""}) {
+    if (!output.empty() && request.spec != "-" && same_file(output, request.spec)) {
+      throw BadUsage(fmt::format("{} is the spec itself and would be overwritten; name another output", output));
+    }
+  }
+  if (summary_is_file && !request.result.empty() && same_file(request.result, request.summary)) {
+    throw BadUsage(fmt::format("-o and --summary both name {}; give each its own file", request.result));
+  }
+  if (!request.result.empty()) require_writable(request.result);
+  if (summary_is_file) require_writable(request.summary);
+}
+
+/// Runs the trials; the signals that end them early are heard meanwhile.
+StudyResult run_trials(const Study& study, const Request& request) {
+  Interruption interruption;
+  ProgressDisplay display(request.no_progress ? ProgressStyle::none : progress_style(), interruption.token());
+  RunOptions options;
+  options.threads = request.threads;
+  options.stop = interruption.token();
+  options.on_progress = [&display](const Progress& progress) { display.show(progress); };
+  return run_study(study, options);
+}
+
+/// Does one of several things of which each should be tried: a failure is told, not thrown.
+/// @return whether it was done
+template <class Action>
+bool attempt(const Action& action) {
+  try {
+    action();
+    return true;
+  } catch (const RunFailure& failure) {
+    tell(failure.what());
+    return false;
+  }
+}
+
+/// Writes what was asked for, the trials first: the most costly to lose. One full disk does not take the rest along.
+/// @return whether all of it was written
+bool write_outputs(const Request& request, const Study& study, const StudyResult& result) {
+  const Summary summary = summarise(study, result);
+  const bool summary_is_file = !request.summary.empty() && request.summary != "-";
+  const bool kept = request.result.empty() || attempt([&] { write_result(request.result, study, result); });
+  const bool summarised = !summary_is_file || attempt([&] { write_text(request.summary, summary_json(summary)); });
+  const bool printed = attempt([&] {
+    print(request.summary == "-" ? summary_json(summary) : summary_text(summary, wants_colour(StandardStream::output)));
+  });
+  if (kept && !request.result.empty()) tell(fmt::format("wrote the trials to {}", request.result));
+  if (summarised && summary_is_file) tell(fmt::format("wrote the summary to {}", request.summary));
+  return kept && summarised && printed;
+}
+
+ExitCode run(const Request& request) {
+  const Study study = read_study(request.spec);
+  check_outputs(request);
+  const StudyResult result = run_trials(study, request);
+  const bool written = write_outputs(request, study, result);
+  if (!result.complete) {
+    tell(fmt::format("interrupted after {} of {} trials; they are {}", result.trials.index.size(), Plan(study).trials(),
+                     request.result.empty() ? "not kept (no -o)" : "kept"));
+  }
+  if (!written) return ExitCode::run_failed;
+  return result.complete ? ExitCode::done : ExitCode::interrupted;
+}
+
+}  // namespace
+
+void add_run(CLI::App& program, ExitCode& exit_code) {
+  CLI::App* command = program.add_subcommand("run", "Run a study and summarise it");
+  const auto request = std::make_shared<Request>();
+  command->add_option("SPEC", request->spec, "The study's JSON file; - reads standard input")->required();
+  command->add_option("-o,--output", request->result, "Keep the trials in this result file (HDF5)");
+  command->add_option("--summary", request->summary,
+                      "Write the summary to this file as JSON; - prints it instead of the table");
+  command->add_option("--threads", request->threads, "Worker threads; as many as there are cores unless given")
+      ->check(CLI::Range(1U, 1024U));
+  command->add_flag("--no-progress", request->no_progress, "Do not show progress");
+  command->footer(epilogue);
+  command->callback([request, &exit_code] { exit_code = run(*request); });
+}
+
+}  // namespace steerstat

@@ -1,0 +1,54 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <memory>
+
+#include "commands.hpp"
+#include "output.hpp"
+#include "report/readable.hpp"
+#include "spec_file.hpp"
+#include "study/plan.hpp"
+#include "study/spec_json.hpp"
+
+namespace steerstat {
+namespace {
+
+constexpr const char* epilogue = R"(Examples:
+  steerstat validate study.json
+  generate-study | steerstat validate -
+
+Exits 0 when the spec is valid, 2 with every mistake on standard error when it is not.)";
+
+std::string describe(const Study& study) {
+  static constexpr std::array<std::string_view, 3> methods{"monte_carlo", "grid", "explicit"};
+  const Plan plan(study);
+  std::string text = fmt::format("{}: a valid study\n", printable(study.name));
+  text += fmt::format("  id          {}\n", study_id(study));
+  text += fmt::format("  trials      {}", readable_count(plan.trials()));
+  if (plan.cells() > 1)
+    text +=
+        fmt::format(" ({} cells of {})", readable_count(plan.cells()), readable_count(plan.trials() / plan.cells()));
+  text += fmt::format("\n  sampling    {}", methods[static_cast<std::size_t>(study.sampling.method)]);
+  if (study.sampling.method == SamplingMethod::monte_carlo) text += fmt::format(", seed {}", study.sampling.seed);
+  text += fmt::format("\n  varying     {}\n",
+                      plan.varying().empty() ? "nothing" : fmt::format("{}", fmt::join(plan.varying(), ", ")));
+  text += fmt::format("  integrator  {}, tolerance {}\n",
+                      IntegratorChoice::method_names[static_cast<std::size_t>(study.integrator.method)],
+                      study.integrator.tolerance);
+  return text;
+}
+
+}  // namespace
+
+void add_validate(CLI::App& program, ExitCode& exit_code) {
+  CLI::App* command = program.add_subcommand("validate", "Check a study spec without running it");
+  const auto spec = std::make_shared<std::string>();
+  command->add_option("SPEC", *spec, "The study's JSON file; - reads standard input")->required();
+  command->footer(epilogue);
+  command->callback([spec, &exit_code] {
+    print(describe(read_study(*spec)));
+    exit_code = ExitCode::done;
+  });
+}
+
+}  // namespace steerstat
