@@ -27,12 +27,20 @@ endfunction()
 
 # The tests of a room: an executable test_NAME of GoogleTest cases, each a CTest case.
 #
-#   steerstat_test(NAME SOURCES file... [USES room...] [LIBRARIES target...])
+#   steerstat_test(NAME SOURCES file... [USES room...] [LIBRARIES target...] [THREADED])
+#
+# THREADED  starts threads, so that the thread sanitizer has something to find: labelled "threads" and built by the
+#           target threaded_tests
 function(steerstat_test name)
-  cmake_parse_arguments(TEST "" "" "SOURCES;USES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(TEST "THREADED" "" "SOURCES;USES;LIBRARIES" ${ARGN})
   list(TRANSFORM TEST_USES PREPEND steerstat::)
   add_executable(test_${name} ${TEST_SOURCES})
   target_link_libraries(test_${name} PRIVATE ${TEST_USES} ${TEST_LIBRARIES} steerstat_flags GTest::gmock_main)
   target_compile_definitions(test_${name} PRIVATE STEERSTAT_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
-  gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+  set(label "")
+  if(TEST_THREADED)
+    set(label LABELS threads)
+    add_dependencies(threaded_tests test_${name})
+  endif()
+  gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600 ${label})
 endfunction()
