@@ -1,3 +1,4 @@
+# shellcheck shell=bash disable=SC2034
 # What studies/run and tests/run share: Debian packages, builds, and telling what they do. Sourced by bash, from the
 # source directory.
 
@@ -6,6 +7,7 @@ program_packages=(cmake g++ libcli11-dev libfmt-dev libhdf5-dev librandom123-dev
   ninja-build nlohmann-json3-dev)
 
 logs=build/logs  # of everything that is not shown
+runner=()        # what builds and tests are run under
 
 # step TITLE: one line that says what begins.
 step() { printf '\n== %s\n' "$*"; }
@@ -70,7 +72,7 @@ build() {
   if [ ! -f "build/$preset/build.ninja" ]; then
     logged "configure-$preset" cmake --preset "$preset" || return
   fi
-  local command=(cmake --build --preset "$preset" --parallel "$(nproc)")
+  local command=("${runner[@]}" cmake --build --preset "$preset" --parallel "$(nproc)")
   [ $# -eq 0 ] || command+=(--target "$@")
   if [ -t 1 ]; then
     "${command[@]}"  # ninja counts on one line
