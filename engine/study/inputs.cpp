@@ -11,7 +11,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Range any{};
 constexpr Range positive{.low = 0.0, .rule = "> 0"};
 constexpr Range non_negative{.low = 0.0, .includes_low = true, .rule = ">= 0"};
-constexpr Range non_zero{.excludes_zero = true, .rule = "not 0"};
+constexpr Range non_zero{.excludes_zero = true, .rule = "!= 0"};
 constexpr Range fraction{.low = 0.0, .high = 1.0, .rule = "in (0, 1)"};
 // Rule 6's drift ends at s2 = -(min_authority + 0.1), which has to be above -1.
 constexpr Range authority{.low = 0.0, .high = 0.9, .includes_low = true, .rule = "in [0, 0.9)"};

@@ -1,0 +1,95 @@
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "study/input_json.hpp"
+#include "study/sampling_json.hpp"
+#include "study/spec_json.hpp"
+
+namespace steerstat {
+namespace {
+
+using Canonical = nlohmann::json;  // whose objects are sorted by key
+
+void write(const Canonical& value, std::string& text);
+
+// The shortest decimal that reads back to the same bits; nlohmann's own is not always the shortest.
+void write_number(double x, std::string& text) {
+  std::array<char, 32> digits{};
+  const auto [end, failure] = std::to_chars(digits.data(), digits.data() + digits.size(), x);
+  text.append(digits.data(), end);
+}
+
+void write_object(const Canonical& value, std::string& text) {
+  text += '{';
+  char separator = 0;
+  for (const auto& [key, member] : value.items()) {
+    if (separator != 0) text += separator;
+    separator = ',';
+    text += Canonical(key).dump();
+    text += ':';
+    write(member, text);
+  }
+  text += '}';
+}
+
+void write_array(const Canonical& value, std::string& text) {
+  text += '[';
+  char separator = 0;
+  for (const Canonical& element : value) {
+    if (separator != 0) text += separator;
+    separator = ',';
+    write(element, text);
+  }
+  text += ']';
+}
+
+void write(const Canonical& value, std::string& text) {
+  if (value.is_object()) {
+    write_object(value, text);
+  } else if (value.is_array()) {
+    write_array(value, text);
+  } else if (value.is_number_float()) {
+    write_number(value.get<double>(), text);
+  } else {
+    text += value.dump();
+  }
+}
+
+Canonical encode_nominal(const PlantParameters<double>& p) {
+  return {{"m1", p.m1}, {"m2", p.m2}, {"d2", p.d2}, {"I2", p.I2}, {"f1", p.f1}, {"f2", p.f2}};
+}
+
+// Puts an input's value where its dotted name says.
+void place(const Input& input, Canonical& spec) {
+  Canonical* object = &spec;
+  std::string_view name = input.name;
+  for (std::size_t dot = name.find('.'); dot != std::string_view::npos; dot = name.find('.')) {
+    object = &(*object)[std::string(name.substr(0, dot))];
+    name.remove_prefix(dot + 1);
+  }
+  (*object)[std::string(name)] = encode_input(input.value);
+}
+
+}  // namespace
+
+std::string canonical_spec(const Study& study) {
+  Canonical spec = Canonical::object();
+  spec["name"] = study.name;
+  spec["nominal"] = encode_nominal(study.nominal);
+  for (const Input& input : study.inputs) place(input, spec);
+  spec["controller"]["realignment"] = realignment_names[static_cast<std::size_t>(study.realignment)];
+  spec["goal"] = {{"q1", study.goal.q1}, {"q2", study.goal.q2}};
+  spec["horizon"] = study.horizon;
+  spec["integrator"]["method"] = IntegratorChoice::method_names[static_cast<std::size_t>(study.integrator.method)];
+  spec["integrator"]["tolerance"] = study.integrator.tolerance;
+  spec["sampling"] = encode_sampling(study.sampling);
+  spec["retain"]["trajectories"] = {{"failed", study.retention.failed}, {"first", study.retention.first}};
+  std::string text;
+  write(spec, text);
+  return text;
+}
+
+}  // namespace steerstat

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+/// How large a study may be.
+namespace steerstat {
+
+/// A study's sweeps make at most this many cells.
+inline constexpr std::uint64_t most_cells = 100'000;
+
+/// At most this many draws a cell, and trials in all.
+inline constexpr std::uint64_t most_trials = 1'000'000'000;
+
+/// At most this many explicit trials.
+inline constexpr std::size_t most_explicit_trials = 100'000;
+
+/// A discrete distribution has at most this many values.
+inline constexpr std::size_t most_discrete_values = 10'000;
+
+/// At most this many trajectories are retained, of the failed trials and of the first ones each.
+inline constexpr std::uint64_t most_trajectories = 10'000;
+
+/// A study's name has at most this many characters.
+inline constexpr std::size_t longest_name = 100;
+
+/// A bad spec's mistakes are reported up to this many.
+inline constexpr std::size_t most_errors = 100;
+
+}  // namespace steerstat

@@ -1,0 +1,169 @@
+#include "study/rules.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "control/cycle.hpp"
+#include "robot/plant.hpp"
+#include "study/limits.hpp"
+
+namespace steerstat {
+namespace {
+
+struct Interval {
+  double low;
+  double high;
+};
+
+class Rules {
+ public:
+  Rules(const Study& study, const std::vector<std::string>& mistaken, std::vector<SpecError>& errors)
+      : study_(study), mistaken_(mistaken), errors_(errors) {}
+
+  void check_coupling() {
+    if (is_mistaken("nominal")) return;
+    const double k = coupling(study_.nominal);
+    if (std::isfinite(k) && k * k * beta > 0.0 && std::isfinite(constants_of(study_.nominal).mass)) return;
+    errors_.push_back({"/nominal", fmt::format("the coupling K = m2 d2 / (I2 + m2 d2^2) comes to {} (K^2 must be a "
+                                               "positive double); bring the values closer to 1",
+                                               k)});
+  }
+
+  // Rule 2 of the supervisor would align for ever.
+  void check_tolerances() {
+    static const std::string align = "controller.alignment.tolerance";
+    static const std::string active = "controller.convergence.active_tolerance";
+    if (is_mistaken(align) || is_mistaken(active)) return;
+    if (is_mistaken("sampling") && study_.sampling.method == SamplingMethod::explicit_trials) return;
+    const auto align_column = column_of(align);
+    const auto active_column = column_of(active);
+    const auto refuse = [&](std::string pointer, double low, double high) {
+      errors_.push_back({std::move(pointer), fmt::format("the active error would have to be within {}, but alignment "
+                                                         "stops at {} (convergence.active_tolerance >= "
+                                                         "alignment.tolerance in every trial); raise the former or "
+                                                         "lower the latter",
+                                                         low, high)});
+    };
+    if (!align_column && !active_column) {
+      const double high = values_of(align).high;
+      const double low = values_of(active).low;
+      if (low < high) refuse(pointer_to(active), low, high);
+      return;
+    }
+    for (std::size_t row = 0; row < study_.sampling.trials; ++row) {
+      const double high = align_column ? listed(row, *align_column) : values_of(align).high;
+      const double low = active_column ? listed(row, *active_column) : values_of(active).low;
+      if (low < high) refuse(fmt::format("/sampling/trials/{}", row), low, high);
+    }
+  }
+
+  void check_sampling() {
+    if (is_mistaken("sampling")) return;
+    const SamplingMethod method = study_.sampling.method;
+    for (const Input& input : study_.inputs) {
+      const bool is_listed = column_of(input.name).has_value();
+      if (std::holds_alternative<Distribution>(input.value) && method == SamplingMethod::grid) {
+        errors_.push_back({pointer_to(input.name),
+                           "a distribution in a grid (a grid runs the sweeps' combinations and "
+                           "draws nothing); use a sweep, or the method monte_carlo"});
+      } else if (std::holds_alternative<Distribution>(input.value) && method == SamplingMethod::explicit_trials) {
+        errors_.push_back({pointer_to(input.name),
+                           fmt::format("a distribution beside explicit trials (they draw nothing); list {} in every "
+                                       "trial, or give a number",
+                                       input.name)});
+      } else if (std::holds_alternative<Sweep>(input.value) && is_listed) {
+        errors_.push_back({pointer_to(input.name), fmt::format("{} is swept and listed in the explicit trials too (one "
+                                                               "source of values); remove one",
+                                                               input.name)});
+      }
+    }
+    if (method == SamplingMethod::grid && !sweeps() && mistaken_.empty()) {
+      errors_.push_back({"/sampling/method",
+                         "a grid without sweeps (a grid runs the sweeps' combinations); add a "
+                         "{\"sweep\": [...]}, or use monte_carlo"});
+    }
+  }
+
+  void check_size() {
+    double cells = 1.0;
+    const Input* longest = nullptr;
+    std::size_t most = 0;
+    for (const Input& input : study_.inputs) {
+      const auto* sweep = std::get_if<Sweep>(&input.value);
+      if (sweep == nullptr) continue;
+      cells *= static_cast<double>(sweep->values.size());
+      if (sweep->values.size() <= most) continue;
+      longest = &input;
+      most = sweep->values.size();
+    }
+    if (longest == nullptr) return;
+    const auto trials = static_cast<double>(study_.sampling.trials);
+    if (cells > static_cast<double>(most_cells)) {
+      errors_.push_back({pointer_to(longest->name) + "/sweep",
+                         fmt::format("the sweeps make {} cells in all (at most {}); shorten them", cells, most_cells)});
+    } else if (cells * trials > static_cast<double>(most_trials)) {
+      errors_.push_back({"/sampling/trials", fmt::format("{} trials in each of {} cells make {} (at most {} in all); "
+                                                         "lower the trials or shorten the sweeps",
+                                                         trials, cells, cells * trials, most_trials)});
+    }
+  }
+
+ private:
+  [[nodiscard]] bool is_mistaken(std::string_view name) const {
+    return std::find(mistaken_.begin(), mistaken_.end(), name) != mistaken_.end();
+  }
+
+  [[nodiscard]] bool sweeps() const {
+    return std::any_of(study_.inputs.begin(), study_.inputs.end(),
+                       [](const Input& input) { return std::holds_alternative<Sweep>(input.value); });
+  }
+
+  [[nodiscard]] Interval values_of(const std::string& name) const {
+    const auto input = std::find_if(study_.inputs.begin(), study_.inputs.end(),
+                                    [&](const Input& candidate) { return candidate.name == name; });
+    if (const auto* sweep = std::get_if<Sweep>(&input->value)) {
+      const auto [low, high] = std::minmax_element(sweep->values.begin(), sweep->values.end());
+      return {*low, *high};
+    }
+    if (const auto* distribution = std::get_if<Distribution>(&input->value)) {
+      return {distribution->support().low, distribution->support().high};
+    }
+    return {std::get<double>(input->value), std::get<double>(input->value)};
+  }
+
+  [[nodiscard]] std::optional<std::size_t> column_of(const std::string& name) const {
+    const auto& names = study_.sampling.explicit_names;
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - names.begin());
+  }
+
+  [[nodiscard]] double listed(std::size_t row, std::size_t column) const {
+    return study_.sampling.explicit_values[row * study_.sampling.explicit_names.size() + column];
+  }
+
+  const Study& study_;
+  const std::vector<std::string>& mistaken_;
+  std::vector<SpecError>& errors_;
+};
+
+}  // namespace
+
+std::string pointer_to(const std::string& input_name) {
+  std::string pointer = '/' + input_name;
+  std::replace(pointer.begin(), pointer.end(), '.', '/');
+  return pointer;
+}
+
+void check_rules(const Study& study, const std::vector<std::string>& mistaken, std::vector<SpecError>& errors) {
+  Rules rules(study, mistaken, errors);
+  rules.check_coupling();
+  rules.check_tolerances();
+  rules.check_sampling();
+  rules.check_size();
+}
+
+}  // namespace steerstat

@@ -1,0 +1,174 @@
+#include "study/sampling_json.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+#include "study/explicit_csv.hpp"
+#include "study/limits.hpp"
+
+namespace steerstat {
+namespace {
+
+constexpr std::array<std::string_view, 3> method_names{"monte_carlo", "grid", "explicit"};
+constexpr std::array<std::string_view, 2> later_method_names{"latin_hypercube", "sobol"};
+
+std::optional<SamplingMethod> decode_method(const Reader& reader) {
+  const auto member = reader.find("method");
+  if (!member) return SamplingMethod::monte_carlo;
+  for (const std::string_view name : later_method_names) {
+    if (member->value() == name) {
+      member->fail(fmt::format("this version does not have the method {} (one of {}); use monte_carlo", name,
+                               listed(method_names)));
+      return std::nullopt;
+    }
+  }
+  const auto position = member->one_of(method_names);
+  if (!position) return std::nullopt;
+  return static_cast<SamplingMethod>(*position);
+}
+
+// Puts the columns into the order of input_names(), so that a study does not depend on how its table was written.
+void take_table(ExplicitTable table, Sampling& sampling) {
+  std::vector<std::size_t> order;
+  for (const InputDefinition& definition : input_definitions()) {
+    const auto found = std::find(table.names.begin(), table.names.end(), definition.name);
+    if (found == table.names.end()) continue;
+    order.push_back(static_cast<std::size_t>(found - table.names.begin()));
+    sampling.explicit_names.emplace_back(definition.name);
+  }
+  sampling.trials = table.rows();
+  sampling.explicit_values.reserve(table.values.size());
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    for (const std::size_t column : order) {
+      sampling.explicit_values.push_back(table.values[row * table.names.size() + column]);
+    }
+  }
+}
+
+// One object of "trials"; the first one decides what all of them set.
+void decode_row(const Reader& row, bool first, ExplicitTable& table) {
+  if (!row.require_object("an object {\"plant.m1\": number, ...}")) return;
+  std::vector<std::string_view> known;
+  for (const InputDefinition& definition : input_definitions()) known.push_back(definition.name);
+  row.refuse_unknown_keys(known);
+  if (first) {
+    for (const std::string_view name : known) {
+      if (row.find(name)) table.names.emplace_back(name);
+    }
+    if (row.value().empty()) row.fail("the trial sets nothing (at least one input); add one, such as \"plant.m1\"");
+  }
+  for (const std::string_view name : known) {
+    const auto value = row.find(name);
+    const bool wanted = std::find(table.names.begin(), table.names.end(), name) != table.names.end();
+    if (value && !wanted)
+      value->fail("the first trial does not set this (all trials set the same inputs); add it there");
+    if (!value && wanted) row.fail(fmt::format("\"{}\" is missing (all trials set the same inputs); add it", name));
+    const auto x = value ? value->number_in(find_input(name)->range, name) : std::nullopt;
+    if (wanted) table.values.push_back(x.value_or(0.0));
+  }
+}
+
+void decode_rows(const Reader& reader, Sampling& sampling) {
+  if (!reader.require_array("an array of trials (method \"explicit\")")) return;
+  const std::size_t size = reader.value().size();
+  if (size == 0 || size > most_explicit_trials) {
+    reader.fail(fmt::format("{} trials (1 to {})", size, most_explicit_trials));
+    return;
+  }
+  const std::size_t mistakes = reader.errors().size();
+  ExplicitTable table;
+  for (std::size_t i = 0; i < size; ++i) decode_row(reader.element(i), i == 0, table);
+  if (reader.errors().size() == mistakes) take_table(std::move(table), sampling);
+}
+
+void decode_file(const Reader& reader, const std::filesystem::path& directory, Sampling& sampling) {
+  const auto name = reader.string("the name of a CSV file");
+  if (!name) return;
+  if (directory.empty()) {
+    reader.fail("files are not read here; list the trials in \"trials\"");
+    return;
+  }
+  if (name->empty() || name->find('\0') != std::string::npos) {
+    reader.fail("not a file's name; give the name of a CSV file");
+    return;
+  }
+  std::string problem;
+  const std::string text = read_text_file(directory / *name, problem);
+  if (!problem.empty()) {
+    reader.fail(fmt::format("{} cannot be read: {}; names are relative to the spec", quote(*name), problem));
+    return;
+  }
+  std::vector<std::string> problems;
+  ExplicitTable table = parse_explicit_csv(text, problems);
+  for (const std::string& line : problems) reader.fail(fmt::format("{}: {}", quote(*name), line));
+  if (problems.empty()) take_table(std::move(table), sampling);
+}
+
+void decode_explicit(const Reader& reader, const std::filesystem::path& directory, Sampling& sampling) {
+  const auto rows = reader.find("trials");
+  const auto file = reader.find("file");
+  if (rows && file) {
+    file->fail("\"trials\" and \"file\" (one source of trials); remove one of them");
+  } else if (rows) {
+    decode_rows(*rows, sampling);
+  } else if (file) {
+    decode_file(*file, directory, sampling);
+  } else {
+    reader.fail("no trials (method \"explicit\" lists them); add \"trials\": [{...}, ...] or \"file\": \"x.csv\"");
+  }
+}
+
+}  // namespace
+
+Sampling decode_sampling(const Reader& reader, const std::filesystem::path& directory) {
+  Sampling sampling;
+  if (!reader.require_object("an object {\"method\", \"trials\", \"seed\"}")) return sampling;
+  static constexpr std::array<std::string_view, 4> known{"method", "trials", "seed", "file"};
+  reader.refuse_unknown_keys(known);
+  if (const auto seed = reader.find("seed")) {
+    sampling.seed = seed->integer(0, std::numeric_limits<std::uint64_t>::max()).value_or(sampling.seed);
+  }
+  const auto method = decode_method(reader);
+  sampling.method = method.value_or(sampling.method);
+  if (method == SamplingMethod::explicit_trials) {
+    decode_explicit(reader, directory, sampling);
+    return sampling;
+  }
+  if (const auto file = reader.find("file"))
+    file->fail("only the method explicit reads a file; remove it, or set the method");
+  const auto trials = reader.find("trials");
+  if (!trials) return sampling;
+  if (method == SamplingMethod::grid) {
+    trials->fail("a grid has no trials key (each combination of the sweeps runs once); remove it");
+  } else if (trials->value().is_array()) {
+    trials->fail("an array of trials (that is the method explicit); add \"method\": \"explicit\"");
+  } else {
+    sampling.trials = trials->integer(1, most_trials).value_or(sampling.trials);
+  }
+  return sampling;
+}
+
+nlohmann::json encode_sampling(const Sampling& sampling) {
+  nlohmann::json object;
+  object["method"] = method_names[static_cast<std::size_t>(sampling.method)];
+  object["seed"] = sampling.seed;
+  if (sampling.method == SamplingMethod::monte_carlo) object["trials"] = sampling.trials;
+  if (sampling.method != SamplingMethod::explicit_trials) return object;
+  auto rows = nlohmann::json::array();
+  const std::size_t columns = sampling.explicit_names.size();
+  for (std::size_t row = 0; row < sampling.trials; ++row) {
+    auto trial = nlohmann::json::object();
+    for (std::size_t i = 0; i < columns; ++i) {
+      trial[sampling.explicit_names[i]] = sampling.explicit_values[row * columns + i];
+    }
+    rows.push_back(std::move(trial));
+  }
+  object["trials"] = std::move(rows);
+  return object;
+}
+
+}  // namespace steerstat

@@ -1,0 +1,262 @@
+#include "study/spec_json.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "core/elementary.hpp"
+#include "study/input_json.hpp"
+#include "study/inputs.hpp"
+#include "study/limits.hpp"
+#include "study/parse_json.hpp"
+#include "study/reader_json.hpp"
+#include "study/rules.hpp"
+#include "study/sampling_json.hpp"
+
+namespace steerstat {
+namespace {
+
+constexpr Range any{};
+constexpr Range positive{.low = 0.0, .rule = "> 0"};
+constexpr Range integrator_tolerance{
+    .low = 1e-14, .high = 1e-2, .includes_low = true, .includes_high = true, .rule = "in [1e-14, 0.01]"};
+
+// Keys of the interface that this version has not got yet.
+constexpr std::array<std::string_view, 3> later_keys{"stop", "gates", "audit"};
+
+std::size_t characters_in(const std::string& utf8) {
+  std::size_t count = 0;
+  for (const char c : utf8) count += (static_cast<unsigned char>(c) & 0xC0U) != 0x80U ? 1 : 0;
+  return count;
+}
+
+// The part of a dotted name up to the next dot after `start`.
+std::string_view component(std::string_view name, std::size_t start) {
+  return name.substr(start, name.find('.', start) - start);
+}
+
+class Decoder {
+ public:
+  Decoder(const Json& document, const std::filesystem::path& directory, std::vector<SpecError>& errors)
+      : root_(document, "", errors), directory_(directory), errors_(errors) {}
+
+  Study decode() {
+    if (!root_.require_object("an object: a study spec is {...}")) return study_;
+    refuse_unknown_keys();
+    if (const auto name = root_.find("name")) decode_name(*name);
+    const std::size_t before = errors_.size();
+    if (const auto nominal = root_.find("nominal")) decode_nominal(*nominal);
+    if (errors_.size() != before) mistaken_.emplace_back("nominal");
+    study_.inputs = default_inputs(study_.nominal);
+    for (const std::string_view group : {"plant", "initial_state", "controller"}) {
+      if (const auto reader = root_.find(group)) decode_group(*reader, std::string(group));
+    }
+    if (const auto goal = root_.find("goal")) decode_goal(*goal);
+    if (const auto horizon = root_.find("horizon")) {
+      study_.horizon = horizon->number_in(positive, "horizon").value_or(study_.horizon);
+    }
+    if (const auto integrator = root_.find("integrator")) decode_integrator(*integrator);
+    if (const auto sampling = root_.find("sampling")) {
+      const std::size_t start = errors_.size();
+      study_.sampling = decode_sampling(*sampling, directory_);
+      if (errors_.size() != start) mistaken_.emplace_back("sampling");
+    }
+    if (const auto retain = root_.find("retain")) decode_retention(*retain);
+    check_rules(study_, mistaken_, errors_);
+    return study_;
+  }
+
+ private:
+  void refuse_unknown_keys() {
+    static constexpr std::array<std::string_view, 10> known{"name",     "nominal",    "plant",   "initial_state",
+                                                            "goal",     "controller", "horizon", "integrator",
+                                                            "sampling", "retain"};
+    root_.refuse_unknown_keys(known, later_keys);
+    for (const std::string_view key : later_keys) {
+      const auto member = root_.find(key);
+      if (!member || is_empty_audit(key, *member)) continue;
+      member->fail(
+          fmt::format("this version has no \"{}\" (every trial runs, nothing is judged or audited); remove it", key));
+    }
+  }
+
+  // {"trials": 0} asks for nothing, so nothing is missing.
+  static bool is_empty_audit(std::string_view key, const Reader& reader) {
+    return key == "audit" && reader.value() == Json{{"trials", 0}};
+  }
+
+  void decode_name(const Reader& reader) {
+    const auto name = reader.string("a string");
+    if (!name) return;
+    const bool has_control = std::any_of(name->begin(), name->end(),
+                                         [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
+    const std::size_t length = characters_in(*name);
+    if (has_control) {
+      reader.fail("the name has control characters (printable text); remove them");
+    } else if (length < 1 || length > longest_name) {
+      reader.fail(fmt::format("the name has {} characters (1 to {})", length, longest_name));
+    } else {
+      study_.name = *name;
+    }
+  }
+
+  // A number that no study varies.
+  std::optional<double> decode_fixed(const Reader& reader, const Range& range, std::string_view name,
+                                     std::string_view advice) {
+    if (!reader.value().is_object()) return reader.number_in(range, name);
+    reader.fail(fmt::format("{} is a fixed number (no distribution, no sweep); {}", name, advice));
+    return std::nullopt;
+  }
+
+  void decode_nominal(const Reader& reader) {
+    if (!reader.require_object("an object {\"m1\", \"m2\", ...}")) return;
+    std::vector<std::string_view> known;
+    TrialParameters parameters;
+    for (const InputDefinition& definition : input_definitions()) {
+      if (!definition.name.starts_with("plant.")) continue;
+      const std::string_view key = definition.name.substr(6);
+      known.push_back(key);
+      const auto member = reader.find(key);
+      if (!member) continue;
+      const std::string name = fmt::format("nominal.{}", key);
+      const auto value = decode_fixed(*member, definition.range, name, "vary it in plant");
+      definition.field(parameters) = value.value_or(definition.field(parameters));
+      if (!value) mistaken_.push_back(name);
+    }
+    reader.refuse_unknown_keys(known);
+    study_.nominal = parameters.plant;
+  }
+
+  // Everything below `prefix`, which is "plant", "controller", "controller.contraction" and so on.
+  void decode_group(const Reader& reader, const std::string& prefix) {
+    if (!reader.require_object("an object {...}")) return;
+    const std::vector<std::string_view> known = keys_below(prefix);
+    reader.refuse_unknown_keys(known);
+    for (const std::string_view key : known) {
+      const auto member = reader.find(key);
+      if (!member) continue;
+      const std::string name = fmt::format("{}.{}", prefix, key);
+      if (name == "controller.realignment") {
+        const auto position = member->one_of(realignment_names);
+        if (position) study_.realignment = static_cast<Realignment>(*position);
+      } else if (const InputDefinition* definition = find_input(name)) {
+        decode_value(*member, *definition);
+      } else {
+        decode_group(*member, name);
+      }
+    }
+  }
+
+  static std::vector<std::string_view> keys_below(const std::string& prefix) {
+    std::vector<std::string_view> keys;
+    if (prefix == "controller") keys.emplace_back("realignment");
+    for (const InputDefinition& definition : input_definitions()) {
+      if (!definition.name.starts_with(prefix + ".")) continue;
+      const std::string_view key = component(definition.name, prefix.size() + 1);
+      if (keys.empty() || keys.back() != key) keys.push_back(key);
+    }
+    return keys;
+  }
+
+  void decode_value(const Reader& reader, const InputDefinition& definition) {
+    std::optional<double> nominal;
+    if (definition.name.starts_with("plant.") && !is_mistaken(fmt::format("nominal.{}", definition.name.substr(6)))) {
+      TrialParameters parameters;
+      parameters.plant = study_.nominal;
+      nominal = definition.field(parameters);
+    }
+    auto value = decode_input(definition, nominal, reader);
+    if (!value) {
+      mistaken_.emplace_back(definition.name);
+      return;
+    }
+    for (Input& input : study_.inputs) {
+      if (input.name == definition.name) input.value = *std::move(value);
+    }
+  }
+
+  void decode_goal(const Reader& reader) {
+    if (!reader.require_object("an object {\"q1\", \"q2\"}")) return;
+    static constexpr std::array<std::string_view, 2> known{"q1", "q2"};
+    reader.refuse_unknown_keys(known);
+    double q1 = study_.goal.q1;
+    double q2 = study_.goal.q2;
+    if (const auto member = reader.find("q1")) {
+      q1 = decode_fixed(*member, any, "goal.q1", "vary initial_state.q1").value_or(q1);
+    }
+    if (const auto member = reader.find("q2")) {
+      const auto value = decode_fixed(*member, any, "goal.q2", "vary initial_state.q2");
+      const auto [s, c] = sincos(value.value_or(q2));
+      if (std::abs(2.0 * s * c) < least_goal_sine) {
+        member->fail(
+            fmt::format("sin 2 q2 is {:.2g} at {} (at least {} in size: near a multiple of pi/2 no contraction "
+                        "is possible); choose another angle, such as pi/4 = 0.7853981633974483",
+                        2.0 * s * c, *value, least_goal_sine));
+      } else {
+        q2 = value.value_or(q2);
+      }
+    }
+    study_.goal = goal_at(q1, q2);
+  }
+
+  void decode_integrator(const Reader& reader) {
+    if (!reader.require_object("an object {\"method\", \"tolerance\"}")) return;
+    static constexpr std::array<std::string_view, 2> known{"method", "tolerance"};
+    reader.refuse_unknown_keys(known);
+    if (const auto method = reader.find("method")) {
+      const auto position = method->one_of(IntegratorChoice::method_names);
+      if (position) study_.integrator.method = static_cast<IntegratorChoice::Method>(*position);
+    }
+    if (const auto tolerance = reader.find("tolerance")) {
+      study_.integrator.tolerance =
+          tolerance->number_in(integrator_tolerance, "integrator.tolerance").value_or(study_.integrator.tolerance);
+    }
+  }
+
+  void decode_retention(const Reader& reader) {
+    static constexpr std::array<std::string_view, 1> known{"trajectories"};
+    static constexpr std::array<std::string_view, 2> known_below{"failed", "first"};
+    if (!reader.require_object("an object {\"trajectories\"}")) return;
+    reader.refuse_unknown_keys(known);
+    const auto trajectories = reader.find("trajectories");
+    if (!trajectories || !trajectories->require_object("an object {\"failed\", \"first\"}")) return;
+    trajectories->refuse_unknown_keys(known_below);
+    if (const auto failed = trajectories->find("failed")) {
+      study_.retention.failed = failed->integer(0, most_trajectories).value_or(0);
+    }
+    if (const auto first = trajectories->find("first")) {
+      study_.retention.first = first->integer(0, most_trajectories).value_or(0);
+    }
+  }
+
+  [[nodiscard]] bool is_mistaken(const std::string& name) const {
+    return std::find(mistaken_.begin(), mistaken_.end(), name) != mistaken_.end();
+  }
+
+  Reader root_;
+  const std::filesystem::path& directory_;
+  std::vector<SpecError>& errors_;
+  std::vector<std::string> mistaken_;
+  Study study_;
+};
+
+}  // namespace
+
+Study decode_study(std::string_view text, const std::filesystem::path& directory) {
+  std::vector<SpecError> errors;
+  const Json document = parse_json(text, errors);
+  Study study = Decoder(document, directory, errors).decode();
+  if (errors.empty()) return study;
+  sort_by_place(errors, document);
+  if (errors.size() > most_errors) {
+    const std::size_t more = errors.size() - most_errors;
+    errors.resize(most_errors);
+    errors.push_back({"", fmt::format("and {} more mistakes; correct these first", more)});
+  }
+  throw BadSpec(std::move(errors));
+}
+
+}  // namespace steerstat
