@@ -179,6 +179,7 @@ TEST(RunStudy, AStopOnThreeThreadsKeepsWholeBlocks) {
   std::stop_source stop;
   RunOptions options = echo_options(3, [&](std::uint64_t index) {
     if (index == 1000) stop.request_stop();
+    while (index > 1000 && !stop.stop_requested()) std::this_thread::yield();  // nobody runs away meanwhile
   });
   options.stop = stop.get_token();
   const StudyResult result = run_study(study, options);
@@ -219,12 +220,17 @@ struct Broken : std::runtime_error {
 TEST(RunStudy, WhatAWorkerThrowsIsRethrownAndEndsTheOthers) {
   for (const unsigned threads : {1U, 3U}) {
     std::atomic<std::uint64_t> run{0};
+    std::atomic<bool> broken{false};
     const RunOptions options = echo_options(threads, [&](std::uint64_t index) {
       ++run;
-      if (index == 20) throw Broken("trial 20");
+      if (index == 20) {
+        broken = true;
+        throw Broken("trial 20");
+      }
+      while (index > 100 && !broken) std::this_thread::yield();  // nobody runs away meanwhile
     });
-    EXPECT_THROW(run_study(drawn_study(200000), options), Broken);
-    EXPECT_LT(run.load(), 200000U);
+    EXPECT_THROW(run_study(drawn_study(500000), options), Broken);
+    EXPECT_LT(run.load(), 500000U);
   }
 }
 
