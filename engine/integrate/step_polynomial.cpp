@@ -48,7 +48,9 @@ std::optional<double> first_crossing(const StepPolynomial& step, const Phase& ph
                                      bool& armed) {
   Coefficients p;
   const std::size_t size = guard_polynomial(step, phase, q1_goal, guard, p);
-  return first_descent(std::span(p).first(size), armed);
+  const std::optional<double> fraction = first_descent(std::span(p).first(size), armed);
+  if (!fraction) return std::nullopt;
+  return step.start + *fraction * step.width;
 }
 
 }  // namespace steerstat

@@ -15,6 +15,8 @@ namespace steerstat {
 struct StepPolynomial {
   static constexpr std::size_t highest_order = highest_degree / 2;
 
+  double start{0.0};  ///< [s]
+  double width{0.0};  ///< [s]
   std::size_t order{0};
   std::array<State<double>, highest_order + 1> coefficients{};  ///< (order + 1 used), lowest power first
 };
@@ -23,7 +25,7 @@ struct StepPolynomial {
 ///
 /// @param guard  index into guards(); its bound is finite
 /// @param armed  whether it has been positive in this phase; brought up to date
-/// @return the fraction of the step, in [0, 1]; nothing where it does not fire
+/// @return the time [s]; nothing where it does not fire
 std::optional<double> first_crossing(const StepPolynomial& step, const Phase& phase, double q1_goal, std::size_t guard,
                                      bool& armed);
 
