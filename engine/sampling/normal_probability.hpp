@@ -4,8 +4,8 @@ namespace steerstat {
 
 /// Standard normal distribution function, P(Z <= z); the same bits on every machine.
 ///
-/// Relative error below 2e-15 for z >= -4 and below 1e-13 down to z = -37, where the probability leaves the normal
-/// doubles. Takes about a microsecond: for constants of a distribution, not for draws.
+/// Relative error below 2e-15 for z >= -37; below that the probability leaves the normal doubles. Takes microseconds:
+/// for constants of a distribution, not for draws.
 ///
 /// Sources: the series of [Marsaglia 2004] in the middle, Laplace's continued fraction in the tails [NIST 2010, 7.9].
 double normal_probability(double z);
