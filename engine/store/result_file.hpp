@@ -12,9 +12,9 @@ namespace steerstat {
 /// A result file read back.
 struct StoredStudy {
   Study study;
-  std::string created;         ///< UTC, ISO 8601
-  std::string engine_version;  ///< of the program that wrote it
-  StudyResult result;          ///< trajectories are not read back
+  std::string created;                          ///< UTC, ISO 8601
+  std::string engine_version;                   ///< of the program that wrote it
+  StudyResult result;                           ///< trajectories are not read back
   std::vector<std::vector<double>> parameters;  ///< (varying x rows), in the order of Plan::varying()
 };
 

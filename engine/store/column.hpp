@@ -1,0 +1,53 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "store/hdf5.hpp"
+
+/// One-dimensional datasets, row by row, and their `units`.
+namespace steerstat::hdf5 {
+
+/// Writes a dataset (rows) of any type: chunked, with a Fletcher-32 checksum on every chunk.
+///
+/// @param rows  at `type` in memory, `stored` in the file
+void write_column(hid_t group, const std::string& name, NumberType type, const void* data, std::size_t rows,
+                  const std::string& units);
+
+template <class Number>
+void write_column(hid_t group, const std::string& name, std::span<const Number> values, const std::string& units) {
+  write_column(group, name, type_of(Number{}), values.data(), values.size(), units);
+}
+
+/// A dataset that was found to be what it should be: one-dimensional, of the type and the units asked for.
+class Column {
+ public:
+  /// @throws Problem naming what is wrong
+  Column(hid_t group, const std::string& name, NumberType type, const std::string& units);
+
+  [[nodiscard]] std::size_t rows() const { return rows_; }
+
+  /// @param data  (rows) @throws Problem, for one where a checksum is wrong
+  void read(void* data) const;
+
+ private:
+  std::string name_;
+  hid_t native_;
+  Handle dataset_;
+  std::size_t rows_{0};
+};
+
+/// Reads a dataset that must have `rows` rows. @throws Problem
+template <class Number>
+std::vector<Number> read_column(hid_t group, const std::string& name, const std::string& units, std::size_t rows) {
+  const Column column(group, name, type_of(Number{}), units);
+  if (column.rows() != rows) {
+    throw Problem(name + " has " + std::to_string(column.rows()) + " rows, /trials/index " + std::to_string(rows));
+  }
+  std::vector<Number> values(rows);
+  column.read(values.data());
+  return values;
+}
+
+}  // namespace steerstat::hdf5

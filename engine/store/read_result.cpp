@@ -1,0 +1,168 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <functional>
+
+#include "core/errors.hpp"
+#include "store/attribute.hpp"
+#include "store/column.hpp"
+#include "store/layout.hpp"
+#include "store/memory_file.hpp"
+#include "store/result_file.hpp"
+#include "store/seal.hpp"
+#include "store/whole_file.hpp"
+#include "study/spec_json.hpp"
+
+namespace steerstat {
+namespace {
+
+using hdf5::Problem;
+
+/// Refuses bytes that are not as they were written, before HDF5 sees them.
+std::span<const std::byte> intact(std::span<const std::byte> bytes) {
+  if (const auto content = without_seal(bytes)) return *content;
+  constexpr std::array<unsigned char, 8> hdf5_signature{0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
+  const auto signature = std::as_bytes(std::span(hdf5_signature));
+  if (bytes.size() < signature.size() || !std::equal(signature.begin(), signature.end(), bytes.begin())) {
+    throw Problem("it is not a result file of steerstat");
+  }
+  throw Problem(
+      "it is damaged, cut short or was changed since it was written: its last line is not the SHA-256 of what comes "
+      "before");
+}
+
+void require_our_format(hid_t file) {
+  if (const std::string filetype = hdf5::read_text_attribute(file, "filetype"); filetype != layout::filetype) {
+    throw Problem(fmt::format("its filetype is '{}' (it must be '{}')", filetype, layout::filetype));
+  }
+  const std::uint32_t version = hdf5::read_integer_attribute(file, "format_version");
+  if (version != layout::format_version) {
+    throw Problem(fmt::format("it is of format {}, and this program reads format {}; use the version that wrote it, {}",
+                              version, layout::format_version, hdf5::read_text_attribute(file, "engine_version")));
+  }
+}
+
+Study read_study(hid_t file) {
+  Study study;
+  try {
+    study = decode_study(hdf5::read_text_attribute(file, "spec"), {});
+  } catch (const BadSpec& bad) {
+    throw Problem(fmt::format("its spec is not one that this version accepts: {}", bad.what()));
+  }
+  if (spec_sha256(study) != hdf5::read_text_attribute(file, "spec_sha256")) {
+    throw Problem("its spec and its spec_sha256 do not belong together");
+  }
+  return study;
+}
+
+std::vector<std::uint64_t> read_index(hid_t trials, const Plan& plan) {
+  const hdf5::Column column(trials, "index", hdf5::type_of(std::uint64_t{}), "1");
+  if (column.rows() > plan.trials()) {
+    throw Problem(fmt::format("it has {} rows for {} trials", column.rows(), plan.trials()));
+  }
+  std::vector<std::uint64_t> index(column.rows());
+  column.read(index.data());
+  if (std::adjacent_find(index.begin(), index.end(), std::greater_equal<>()) != index.end()) {
+    throw Problem("/trials/index does not rise");
+  }
+  if (!index.empty() && index.back() >= plan.trials()) {
+    throw Problem(fmt::format("/trials/index {} is beyond the last of {} trials", index.back(), plan.trials()));
+  }
+  return index;
+}
+
+void read_statuses(hid_t trials, std::vector<TrialOutcome>& outcomes) {
+  const hdf5::Handle type = hdf5::enumeration(status_names);
+  const hdf5::Column column(trials, "status", {type.id(), type.id()}, "1");
+  if (column.rows() != outcomes.size()) {
+    throw Problem(fmt::format("status has {} rows, /trials/index {}", column.rows(), outcomes.size()));
+  }
+  std::vector<std::uint8_t> values(column.rows());
+  column.read(values.data());
+  for (std::size_t row = 0; row < values.size(); ++row) {
+    if (values[row] >= status_names.size()) {
+      throw Problem(fmt::format("/trials/status {} in row {} is no outcome", values[row], row));
+    }
+    outcomes[row].status = static_cast<Status>(values[row]);
+  }
+}
+
+/// The columns that follow from others: what they say must be what follows.
+void check_derived_columns(hid_t trials, const Plan& plan, const TrialTable& table) {
+  const std::size_t rows = table.index.size();
+  const auto cells = hdf5::read_column<std::uint64_t>(trials, "cell", "1", rows);
+  const auto settling = hdf5::read_column<double>(trials, "settling_time", "s", rows);
+  for (std::size_t row = 0; row < rows; ++row) {
+    if (cells[row] != plan.cell_of(table.index[row])) {
+      throw Problem(fmt::format("/trials/cell {} in row {} is not that of its trial", cells[row], row));
+    }
+    const double expected = table.outcomes[row].settling_time();
+    if (settling[row] != expected && !(std::isnan(settling[row]) && std::isnan(expected))) {
+      throw Problem(fmt::format("/trials/settling_time in row {} does not follow from status and end_time", row));
+    }
+    if (table.outcomes[row].status == Status::converged && !std::isfinite(expected)) {
+      throw Problem(fmt::format("/trials/end_time in row {} is not finite, yet the trial converged", row));
+    }
+  }
+}
+
+TrialTable read_trials(hid_t file, const Plan& plan) {
+  const hdf5::Handle group = hdf5::open_group(file, "trials");
+  TrialTable table;
+  table.index = read_index(group.id(), plan);
+  table.outcomes.resize(table.index.size());
+  read_statuses(group.id(), table.outcomes);
+  const auto read_field = [&]<class Number>(const layout::OutcomeColumn<Number>& column) {
+    const auto values = hdf5::read_column<Number>(group.id(), column.name, column.units, table.outcomes.size());
+    for (std::size_t row = 0; row < values.size(); ++row) column.field(table.outcomes[row]) = values[row];
+  };
+  for (const auto& column : layout::real_columns) read_field(column);
+  for (const auto& column : layout::count_columns) read_field(column);
+  check_derived_columns(group.id(), plan, table);
+  return table;
+}
+
+std::vector<std::vector<double>> read_parameters(hid_t file, const Plan& plan, std::size_t rows) {
+  const hdf5::Handle group = hdf5::open_group(file, "parameters");
+  std::vector<std::vector<double>> columns;
+  for (const std::string& name : plan.varying()) {
+    columns.push_back(hdf5::read_column<double>(group.id(), name, layout::units_of(name), rows));
+  }
+  return columns;
+}
+
+StoredStudy read_bytes(std::span<const std::byte> bytes) {
+  const hdf5::Session session;
+  const hdf5::Handle file = hdf5::open_in_memory(bytes);
+  require_our_format(file.id());
+  StoredStudy stored;
+  stored.study = read_study(file.id());
+  stored.created = hdf5::read_text_attribute(file.id(), "created");
+  stored.engine_version = hdf5::read_text_attribute(file.id(), "engine_version");
+  const Plan plan(stored.study);
+  stored.result.trials = read_trials(file.id(), plan);
+  stored.parameters = read_parameters(file.id(), plan, stored.result.trials.index.size());
+  stored.result.complete = hdf5::read_flag_attribute(file.id(), "complete");
+  if (stored.result.complete && stored.result.trials.index.size() != plan.trials()) {
+    throw Problem(
+        fmt::format("it is called complete with {} of {} trials", stored.result.trials.index.size(), plan.trials()));
+  }
+  stored.result.wall_s = hdf5::read_real_attribute(file.id(), "wall_s");
+  stored.result.threads = hdf5::read_integer_attribute(file.id(), "threads");
+  return stored;
+}
+
+}  // namespace
+
+StoredStudy read_result(const std::filesystem::path& path) {
+  const std::vector<std::byte> bytes = read_whole_file(path);
+  try {
+    return read_bytes(intact(bytes));
+  } catch (const Problem& problem) {
+    throw RunFailure(fmt::format("cannot read {}: {}", path.string(), problem.what()));
+  }
+}
+
+}  // namespace steerstat

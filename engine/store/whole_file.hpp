@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <initializer_list>
+#include <span>
+#include <vector>
+
+/// Files that are written whole or not at all, and read whole. Thread-safe.
+namespace steerstat {
+
+/// Replaces the file at `path`: writes `.tmp-*` beside it, fsyncs, renames, and fsyncs the directory, so that after a
+/// kill or a power cut there is the old file or the new one. Through a symbolic link, the file it names is replaced. A
+/// device or a pipe is written to in place.
+///
+/// @param parts  the file's bytes, one part after the other
+/// @throws RunFailure naming the path and the reason; whatever stood there is then untouched
+void write_whole_file(const std::filesystem::path& path, std::initializer_list<std::span<const std::byte>> parts);
+
+/// @throws RunFailure naming the path and the reason
+std::vector<std::byte> read_whole_file(const std::filesystem::path& path);
+
+}  // namespace steerstat

@@ -1,0 +1,129 @@
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <ctime>
+
+#include "core/errors.hpp"
+#include "core/version.hpp"
+#include "store/attribute.hpp"
+#include "store/column.hpp"
+#include "store/layout.hpp"
+#include "store/memory_file.hpp"
+#include "store/result_file.hpp"
+#include "store/seal.hpp"
+#include "store/whole_file.hpp"
+#include "study/spec_json.hpp"
+
+namespace steerstat {
+namespace {
+
+void write_description(hid_t file, const Study& study, const StudyResult& result) {
+  hdf5::write_attribute(file, "filetype", std::string(layout::filetype));
+  hdf5::write_attribute(file, "format_version", layout::format_version);
+  hdf5::write_attribute(file, "engine_version", std::string(engine_version()));
+  hdf5::write_attribute(file, "created", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))));
+  hdf5::write_attribute(file, "spec", canonical_spec(study));
+  hdf5::write_attribute(file, "spec_sha256", spec_sha256(study));
+  hdf5::write_attribute(file, "complete", result.complete);
+  hdf5::write_attribute(file, "wall_s", result.wall_s);
+  hdf5::write_attribute(file, "threads", std::uint32_t{result.threads});
+}
+
+/// Writes what `value_of(row)` gives as a dataset.
+template <class Number, class ValueOf>
+void write_each(hid_t group, const std::string& name, std::size_t rows, const std::string& units,
+                const ValueOf& value_of) {
+  std::vector<Number> values(rows);
+  for (std::size_t row = 0; row < rows; ++row) values[row] = value_of(row);
+  hdf5::write_column<Number>(group, name, values, units);
+}
+
+/// Writes bytes as an enumeration of `names`.
+template <class ValueOf>
+void write_names(hid_t group, const std::string& name, std::span<const std::string_view> names, std::size_t rows,
+                 const ValueOf& value_of) {
+  std::vector<std::uint8_t> values(rows);
+  for (std::size_t row = 0; row < rows; ++row) values[row] = static_cast<std::uint8_t>(value_of(row));
+  const hdf5::Handle type = hdf5::enumeration(names);
+  hdf5::write_column(group, name, {type.id(), type.id()}, values.data(), rows, "1");
+}
+
+void write_trials(hid_t file, const Plan& plan, const TrialTable& trials) {
+  const hdf5::Handle group = hdf5::create_group(file, "trials");
+  const std::size_t rows = trials.index.size();
+  hdf5::write_column<std::uint64_t>(group.id(), "index", trials.index, "1");
+  write_each<std::uint64_t>(group.id(), "cell", rows, "1",
+                            [&](std::size_t row) { return plan.cell_of(trials.index[row]); });
+  write_names(group.id(), "status", status_names, rows, [&](std::size_t row) { return trials.outcomes[row].status; });
+  write_each<double>(group.id(), "settling_time", rows, "s",
+                     [&](std::size_t row) { return trials.outcomes[row].settling_time(); });
+  const auto write_field = [&]<class Number>(const layout::OutcomeColumn<Number>& column) {
+    write_each<Number>(group.id(), column.name, rows, column.units, [&](std::size_t row) {
+      TrialOutcome outcome = trials.outcomes[row];
+      return column.field(outcome);
+    });
+  };
+  for (const auto& column : layout::real_columns) write_field(column);
+  for (const auto& column : layout::count_columns) write_field(column);
+}
+
+void write_parameters(hid_t file, const Plan& plan, const TrialTable& trials) {
+  const hdf5::Handle group = hdf5::create_group(file, "parameters");
+  const std::vector<std::string>& names = plan.varying();
+  const std::size_t rows = trials.index.size();
+  std::vector<std::vector<double>> columns(names.size(), std::vector<double>(rows));
+  std::vector<double> values(names.size());
+  for (std::size_t row = 0; row < rows; ++row) {
+    plan.draw(trials.index[row], values);
+    for (std::size_t i = 0; i < names.size(); ++i) columns[i][row] = values[i];
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    hdf5::write_column<double>(group.id(), names[i], columns[i], layout::units_of(names[i]));
+  }
+}
+
+void write_trajectory(hid_t parent, std::uint64_t index, const std::vector<TrajectorySample>& samples) {
+  const hdf5::Handle group = hdf5::create_group(parent, std::to_string(index));
+  const auto write = [&](const char* name, const char* units, const auto& value_of) {
+    write_each<double>(group.id(), name, samples.size(), units,
+                       [&](std::size_t row) { return value_of(samples[row]); });
+  };
+  write("t", "s", [](const TrajectorySample& s) { return s.t; });
+  write("q1", "m", [](const TrajectorySample& s) { return s.state.q1; });
+  write("q2", "rad", [](const TrajectorySample& s) { return s.state.q2; });
+  write("q1_dot", "m/s", [](const TrajectorySample& s) { return s.state.q1_dot; });
+  write("q2_dot", "rad/s", [](const TrajectorySample& s) { return s.state.q2_dot; });
+  write("a", "m/s^2", [](const TrajectorySample& s) { return s.a; });
+  write("tau", "N", [](const TrajectorySample& s) { return s.tau; });
+  write_names(group.id(), "phase", phase_names, samples.size(), [&](std::size_t row) { return samples[row].phase; });
+}
+
+hdf5::Bytes result_bytes(const Study& study, const StudyResult& result) {
+  const hdf5::Session session;
+  const Plan plan(study);
+  hdf5::MemoryFile file;
+  write_description(file.id(), study, result);
+  write_trials(file.id(), plan, result.trials);
+  write_parameters(file.id(), plan, result.trials);
+  {
+    const hdf5::Handle trajectories = hdf5::create_group(file.id(), "trajectories");
+    for (const StudyResult::Retained& retained : result.trajectories) {
+      write_trajectory(trajectories.id(), retained.index, retained.trajectory.samples);
+    }
+  }
+  return file.close();
+}
+
+}  // namespace
+
+void write_result(const std::filesystem::path& path, const Study& study, const StudyResult& result) {
+  try {
+    const hdf5::Bytes bytes = result_bytes(study, result);
+    const std::string seal = seal_of(bytes.span());
+    write_whole_file(path, {bytes.span(), std::as_bytes(std::span(seal))});
+  } catch (const hdf5::Problem& problem) {
+    throw RunFailure(fmt::format("cannot write {}: {}", path.string(), problem.what()));
+  }
+}
+
+}  // namespace steerstat
