@@ -11,9 +11,9 @@ namespace steerstat {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double runaway = 1e3;        // beyond this a state has diverged
-constexpr double arrival_slack = 1e-6; // [rad] a drift that ended at the entry point is in the set
-constexpr double time_slack = 1e-12;   // [s] the horizon has come
+constexpr double runaway = 1e3;         // beyond this a state has diverged
+constexpr double arrival_slack = 1e-6;  // [rad] a drift that ended at the entry point is in the set
+constexpr double time_slack = 1e-12;    // [s] the horizon has come
 
 /// The passive joint seen from the goal's quadrant (CONTROLLER.md section 4).
 struct PassiveJoint {
@@ -29,10 +29,12 @@ PassiveJoint passive_joint(const State<double>& x, const Goal& goal) {
           goal.sigma * (2.0 * angle.sin * angle.cos)};
 }
 
+bool is_finite(const State<double>& x) {
+  return std::isfinite(x.q1) && std::isfinite(x.q2) && std::isfinite(x.q1_dot) && std::isfinite(x.q2_dot);
+}
+
 bool has_diverged(const State<double>& x, const Goal& goal) {
-  const bool finite =
-      std::isfinite(x.q1) && std::isfinite(x.q2) && std::isfinite(x.q1_dot) && std::isfinite(x.q2_dot);
-  return !finite || std::abs(x.q1 - goal.q1) > runaway || std::abs(x.q2_dot) > runaway;
+  return !is_finite(x) || std::abs(x.q1 - goal.q1) > runaway || std::abs(x.q2_dot) > runaway;
 }
 
 bool realigns_after(PhaseKind last, Realignment realignment) {
@@ -130,7 +132,9 @@ Phase steer(const State<double>& x, const PassiveJoint& joint, const Controller&
   return swing(joint, controller);  // rule 7
 }
 
-Decision stop(Status status, const Memory& memory) { return {status, Phase{}, memory}; }
+Decision stop(Status status, const Memory& memory) {
+  return {status, Phase{}, memory};
+}
 
 Decision run(const Phase& phase, Memory memory) {
   memory.last = phase.kind;
@@ -156,12 +160,12 @@ Decision decide(double t, const State<double>& x, const Memory& memory, const Co
                 const Goal& goal) {
   const double active = active_error(x, goal);
   const bool aligned = active <= controller.alignment.tolerance;
-  if (!memory.last && !aligned) return run(align(controller), memory);  // every trial starts with align
+  const bool late = t >= controller.horizon - time_slack;
+  // Every trial starts with align. An align that is skipped, or has no time left, counts as one that ended at once.
+  if (!memory.last && !aligned && !late && is_finite(x)) return run(align(controller), memory);
 
   if (has_diverged(x, goal)) return stop(Status::diverged, memory);
-  if (t >= controller.horizon - time_slack || memory.decisions >= most_decisions) {
-    return stop(Status::timeout, memory);  // rule 1
-  }
+  if (late || memory.decisions >= most_decisions) return stop(Status::timeout, memory);  // rule 1
   if (memory.last && realigns_after(*memory.last, controller.realignment) && !aligned) {
     return run(align(controller), memory);
   }
