@@ -29,8 +29,10 @@ void add_export(CLI::App& program, ExitCode& exit_code) {
   };
   CLI::App* command = program.add_subcommand("export", "Write the trials of a result file as CSV");
   const auto request = std::make_shared<Request>();
-  command->add_option("RESULT", request->file, "The result file (.h5)")->required();
-  command->add_option("-o,--output", request->output, "The CSV file to write; - writes standard output")->required();
+  command->add_option("RESULT", request->file, "The result file (.h5)")->required()->option_text(" ");
+  command->add_option("-o,--output", request->output, "The CSV file to write; - writes standard output")
+      ->required()
+      ->type_name("FILE");
   command->footer(epilogue);
   command->callback([request, &exit_code] {
     const std::filesystem::path output(request->output);

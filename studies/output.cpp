@@ -3,18 +3,17 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/ioctl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
-#include <cstdio>
 #include <cstdlib>
+#include <span>
 #include <string>
 #include <system_error>
-#include <utility>
 
 #include "core/errors.hpp"
+#include "store/whole_file.hpp"
 
 namespace steerstat {
 namespace {
@@ -42,28 +41,6 @@ std::string_view environment(const char* name) {
 
 bool is_terminal(StandardStream stream) {
   return isatty(static_cast<int>(stream)) == 1;
-}
-
-/// A file descriptor that closes itself.
-class Descriptor {
- public:
-  explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
-  ~Descriptor() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-
-  [[nodiscard]] int get() const { return descriptor_; }
-  /// @return 0 or the error number: on some file systems the last writes fail here
-  int close() { return ::close(std::exchange(descriptor_, -1)) == 0 ? 0 : errno; }
-
- private:
-  int descriptor_;
-};
-
-[[noreturn]] void fail_to_write(const std::filesystem::path& path, int error) {
-  throw RunFailure(fmt::format("cannot write {} ({})", path.string(), reason(error)));
 }
 
 }  // namespace
@@ -94,23 +71,7 @@ void tell(std::string_view message) {
 }
 
 void write_text(const std::filesystem::path& path, std::string_view text) {
-  std::error_code ignored;
-  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
-  const bool in_place = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
-  // Through a link, the file it names is replaced, not the link.
-  std::filesystem::path target = std::filesystem::is_regular_file(status) ? std::filesystem::canonical(path) : path;
-  const std::filesystem::path written =
-      in_place ? path : target.parent_path() / fmt::format(".tmp-{}-{}", getpid(), target.filename().string());
-
-  Descriptor file(open(written.c_str(), O_WRONLY | O_CLOEXEC | (in_place ? 0 : O_CREAT | O_TRUNC), 0666));
-  if (file.get() < 0) fail_to_write(path, errno);
-  int error = write_all(file.get(), text);
-  if (error == 0 && !in_place && fsync(file.get()) != 0) error = errno;
-  if (const int closing = file.close(); error == 0) error = closing;
-  if (error == 0 && !in_place && std::rename(written.c_str(), target.c_str()) != 0) error = errno;
-  if (error == 0) return;
-  if (!in_place) unlink(written.c_str());
-  fail_to_write(path, error);
+  write_whole_file(path, {std::as_bytes(std::span(text))});
 }
 
 bool redraws_lines(StandardStream stream) {

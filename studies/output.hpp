@@ -20,8 +20,7 @@ void tell(std::string_view message);
 /// Writes text to standard error as it is.
 void tell_raw(std::string_view text);
 
-/// Writes a text file under a temporary name beside `path` and renames it, so that nobody reads half of it. A device or
-/// a pipe is written to in place. @throws RunFailure
+/// Replaces the file at `path` whole or not at all, as write_whole_file() does. @throws RunFailure
 void write_text(const std::filesystem::path& path, std::string_view text);
 
 /// Whether the stream is a terminal that moves its cursor on command.

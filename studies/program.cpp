@@ -55,10 +55,10 @@ std::string explanation(const CLI::App& program, const CLI::ParseError& mistake,
   }
   const CLI::App* command = program.get_subcommands().front();
   const std::vector<std::string> unexpected = program.remaining(true);
-  if (mistake.get_name() != "ExtrasError" || unexpected.empty()) return mistake.what();
+  if (dynamic_cast<const CLI::ExtrasError*>(&mistake) == nullptr || unexpected.empty()) return mistake.what();
   for (const CLI::Option* option : command->get_options()) words.push_back(option->get_name());
-  return fmt::format("{} does not take {}{}", command->get_name(), unexpected.front(),
-                     suggestion(unexpected.front(), words));
+  const std::string word = unexpected.front().substr(0, unexpected.front().find('='));
+  return fmt::format("{} does not take {}{}", command->get_name(), word, suggestion(word, words));
 }
 
 /// What CLI11 has to say where parsing ended: help and version as results, mistakes as messages.
@@ -78,15 +78,19 @@ ExitCode end_of_parsing(const CLI::App& program, const CLI::ParseError& end, std
 ExitCode parse_and_run(int argc, const char* const* argv) {
   CLI::App program("Monte Carlo robustness and parameter studies of an underactuated robot's controller", "steerstat");
   ExitCode exit_code = ExitCode::done;
-  program.set_version_flag("--version", version());
+  program.set_version_flag("--version", version(), "Print the versions of the program and its libraries and exit");
   program.set_help_flag("-h,--help", "Print this and exit");
   program.require_subcommand(1);
+  program.get_formatter()->label("SUBCOMMAND", "COMMAND");
+  program.get_formatter()->label("REQUIRED", "(required)");
+  program.get_formatter()->label("Positionals", "Arguments");
   program.footer(epilogue);
   add_run(program, exit_code);
   add_validate(program, exit_code);
   add_show(program, exit_code);
   add_replay(program, exit_code);
   add_export(program, exit_code);
+  for (CLI::App* command : program.get_subcommands({})) command->group("Commands");
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& end) {

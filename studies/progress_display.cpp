@@ -30,10 +30,10 @@ std::vector<std::string> facts(const Progress& progress) {
       fmt::format("{} / {} trials", readable_count(progress.completed), readable_count(progress.requested))};
   if (progress.completed == 0 || progress.elapsed < 0.1) return facts;
   const double rate = static_cast<double>(progress.completed) / progress.elapsed;
-  const double left = static_cast<double>(progress.requested - progress.completed) / rate;
-  facts.push_back(readable_rate(rate) + "/s");
   // Whole seconds: tenths that change with every redraw are noise.
-  facts.push_back((left < 119.0 ? fmt::format("{:.0f} s", std::ceil(left)) : readable_duration(left)) + " left");
+  const double left = std::ceil(static_cast<double>(progress.requested - progress.completed) / rate);
+  facts.push_back(readable_rate(rate) + "/s");
+  facts.push_back((left < 120.0 ? fmt::format("{:.0f} s", left) : readable_duration(left)) + " left");
   return facts;
 }
 

@@ -99,9 +99,10 @@ ExitCode run(const Request& request) {
 void add_replay(CLI::App& program, ExitCode& exit_code) {
   CLI::App* command = program.add_subcommand("replay", "Recompute the trajectory of one trial of a result file");
   const auto request = std::make_shared<Request>();
-  command->add_option("RESULT", request->file, "The result file (.h5)")->required();
-  command->add_option("--trial", request->trial, "The trial's index")->required();
-  command->add_option("-o,--output", request->output, "Write .csv or .json instead of CSV to standard output");
+  command->add_option("RESULT", request->file, "The result file (.h5)")->required()->option_text(" ");
+  command->add_option("--trial", request->trial, "The trial's index")->required()->type_name("I");
+  command->add_option("-o,--output", request->output, "Write .csv or .json instead of CSV to standard output")
+      ->type_name("FILE");
   command->footer(epilogue);
   command->callback([request, &exit_code] { exit_code = run(*request); });
 }

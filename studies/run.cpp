@@ -119,12 +119,17 @@ ExitCode run(const Request& request) {
 void add_run(CLI::App& program, ExitCode& exit_code) {
   CLI::App* command = program.add_subcommand("run", "Run a study and summarise it");
   const auto request = std::make_shared<Request>();
-  command->add_option("SPEC", request->spec, "The study's JSON file; - reads standard input")->required();
-  command->add_option("-o,--output", request->result, "Keep the trials in this result file (HDF5)");
-  command->add_option("--summary", request->summary,
-                      "Write the summary to this file as JSON; - prints it instead of the table");
-  command->add_option("--threads", request->threads, "Worker threads; as many as there are cores unless given")
-      ->check(CLI::Range(1U, 1024U));
+  command->add_option("SPEC", request->spec, "The study's JSON file; - reads standard input")
+      ->required()
+      ->option_text(" ");
+  command->add_option("-o,--output", request->result, "Keep the trials in this result file (HDF5)")->type_name("FILE");
+  command
+      ->add_option("--summary", request->summary,
+                   "Write the summary to this file as JSON; - prints it instead of the table")
+      ->type_name("FILE");
+  command->add_option("--threads", request->threads, "Worker threads, 1 to 1024; one a core unless given")
+      ->type_name("N")
+      ->check(CLI::Range(1U, 1024U).description(""));
   command->add_flag("--no-progress", request->no_progress, "Do not show progress");
   command->footer(epilogue);
   command->callback([request, &exit_code] { exit_code = run(*request); });

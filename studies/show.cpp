@@ -21,7 +21,7 @@ void add_show(CLI::App& program, ExitCode& exit_code) {
   };
   CLI::App* command = program.add_subcommand("show", "Print the summary of a result file, recomputed from its trials");
   const auto request = std::make_shared<Request>();
-  command->add_option("RESULT", request->file, "The result file (.h5)")->required();
+  command->add_option("RESULT", request->file, "The result file (.h5)")->required()->option_text(" ");
   command->add_flag("--json", request->json, "Print JSON instead of a table");
   command->footer(epilogue);
   command->callback([request, &exit_code] {

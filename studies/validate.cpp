@@ -43,7 +43,7 @@ std::string describe(const Study& study) {
 void add_validate(CLI::App& program, ExitCode& exit_code) {
   CLI::App* command = program.add_subcommand("validate", "Check a study spec without running it");
   const auto spec = std::make_shared<std::string>();
-  command->add_option("SPEC", *spec, "The study's JSON file; - reads standard input")->required();
+  command->add_option("SPEC", *spec, "The study's JSON file; - reads standard input")->required()->option_text(" ");
   command->footer(epilogue);
   command->callback([spec, &exit_code] {
     print(describe(read_study(*spec)));
