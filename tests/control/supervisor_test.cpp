@@ -433,6 +433,7 @@ TEST(Supervisor, TheOtherQuadrantsAreTheFirstOneMirroredOrTurned) {
     other.goal = goal_at(0.0, sign * pi / 4 + shift);
     EXPECT_EQ(other.goal.sigma, sign);
     for (const State<double>& x : random_aligned_states(2000)) {
+      if (passive_error(x, first.goal) <= 0.01) continue;  // converged
       const Phase phase = first.steer(x.q2, x.q2_dot);
       expect_mirrored(phase, other.steer(sign * x.q2 + shift, sign * x.q2_dot), sign, shift);
       ++kinds[static_cast<std::size_t>(phase.kind)];
