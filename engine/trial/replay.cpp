@@ -4,6 +4,7 @@
 
 #include "core/errors.hpp"
 #include "integrate/cvode_integrator.hpp"
+#include "integrate/lockstep_integrator.hpp"
 #include "trial/course.hpp"
 
 namespace steerstat {
@@ -43,15 +44,9 @@ class PhaseSampler final : public StepObserver {
   std::vector<TrajectorySample>& samples_;
 };
 
-}  // namespace
-
-Trajectory replay(const TrialParameters& parameters, const IntegratorChoice& choice, double interval) {
-  if (!(interval > 0.0)) throw BadUsage("the sampling interval must be positive");
-  if (choice.method != IntegratorChoice::Method::cvode) {
-    throw RunFailure("the lockstep engine is not built; use integrator.method = \"cvode\"");
-  }
+template <class Integrator>
+Trajectory record(const TrialParameters& parameters, Integrator integrator, double interval) {
   const ClosedLoop<double> loop = closed_loop_of(parameters);
-  CvodeIntegrator integrator(choice.tolerance);
   Trajectory trajectory;
   trajectory.outcome = run_course(parameters, [&](const Phase& phase, double t, const State<double>& x, double t_end) {
     PhaseSampler sampler(loop, phase, t, interval, trajectory.samples);
@@ -61,6 +56,19 @@ Trajectory replay(const TrialParameters& parameters, const IntegratorChoice& cho
     return arrival;
   });
   return trajectory;
+}
+
+}  // namespace
+
+Trajectory replay(const TrialParameters& parameters, const IntegratorChoice& choice, double interval) {
+  if (!(interval > 0.0)) throw BadUsage("the sampling interval must be positive");
+  switch (choice.method) {
+    case IntegratorChoice::Method::cvode:
+      return record(parameters, CvodeIntegrator(choice.tolerance), interval);
+    case IntegratorChoice::Method::lockstep:
+      return record(parameters, LockstepIntegrator(choice.tolerance), interval);
+  }
+  throw RunFailure("unknown integration method");
 }
 
 }  // namespace steerstat

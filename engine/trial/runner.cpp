@@ -2,6 +2,7 @@
 
 #include "core/errors.hpp"
 #include "trial/cvode_runner.hpp"
+#include "trial/lockstep_runner.hpp"
 
 namespace steerstat {
 namespace {
@@ -37,14 +38,14 @@ TrialOutcome TrialRunner::run(const TrialParameters& parameters) {
   return trial.outcome();
 }
 
-std::unique_ptr<TrialRunner> make_runner(const IntegratorChoice& integrator) {
+std::unique_ptr<TrialRunner> make_runner(const IntegratorChoice& integrator, InstructionSet set) {
   switch (integrator.method) {
     case IntegratorChoice::Method::cvode:
       return std::make_unique<CvodeRunner>(integrator.tolerance);
     case IntegratorChoice::Method::lockstep:
-      break;
+      return std::make_unique<LockstepRunner>(integrator.tolerance, set);
   }
-  throw RunFailure("the lockstep engine is not built; use integrator.method = \"cvode\"");
+  throw RunFailure("unknown integration method");
 }
 
 }  // namespace steerstat

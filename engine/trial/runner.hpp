@@ -5,6 +5,7 @@
 #include <memory>
 #include <string_view>
 
+#include "core/instruction_set.hpp"
 #include "trial/trial.hpp"
 
 namespace steerstat {
@@ -45,7 +46,9 @@ class TrialRunner {
   TrialOutcome run(const TrialParameters& parameters);
 };
 
-/// @throws RunFailure where the engine cannot be set up.
-std::unique_ptr<TrialRunner> make_runner(const IntegratorChoice& integrator);
+/// @param set  what lockstep runs on; the outcomes are the same bits on each
+/// @throws RunFailure where the engine cannot be set up, BadUsage where this machine does not run `set`
+std::unique_ptr<TrialRunner> make_runner(const IntegratorChoice& integrator,
+                                         InstructionSet set = best_instruction_set());
 
 }  // namespace steerstat

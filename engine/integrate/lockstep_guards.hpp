@@ -1,0 +1,220 @@
+// Where a guard of one lane first fires within a step, on the step's own polynomials. Included once by a source
+// compiled for an instruction set, after the lanes; see core/instruction_set.hpp.
+
+namespace steerstat::STEERSTAT_ISA {
+
+/// One joint's motion over a lane's last step: a velocity's series, and the position it integrates to.
+struct JointSeries {
+  const double* x;  ///< coefficients of the velocity, Pack::lanes apart
+  double start;     ///< position at the step's start
+
+  struct Motion {
+    double position, velocity, acceleration, jerk;
+  };
+  /// @param t  [s] since the step's start
+  [[nodiscard]] Motion at(double t) const {
+    double velocity = x[order * Pack::lanes];
+    double position = velocity * (1.0 / (order + 1));
+    double acceleration = 0.0, half_jerk = 0.0;
+    unroll<0, order>([&]<int i>() {
+      constexpr int k = order - 1 - i;
+      const double coefficient = x[k * Pack::lanes];
+      half_jerk = std::fma(half_jerk, t, acceleration);
+      acceleration = std::fma(acceleration, t, velocity);
+      velocity = std::fma(velocity, t, coefficient);
+      position = std::fma(position, t, coefficient * (1.0 / (k + 1)));
+    });
+    return {std::fma(position, t, start), velocity, acceleration, 2.0 * half_jerk};
+  }
+};
+
+inline JointSeries first_joint(const Lanes& lanes, int lane) {
+  return {reinterpret_cast<const double*>(lanes.series.V) + lane, lanes.E_start[lane]};
+}
+inline JointSeries second_joint(const Lanes& lanes, int lane) {
+  return {reinterpret_cast<const double*>(lanes.series.w) + lane, lanes.q2_start[lane]};
+}
+
+/// A joint's motion sampled at both ends of a span's 16 equal parts; 16 at every lane count.
+struct Samples {
+  static constexpr int parts = 16;
+  struct alignas(64) Ends {
+    double t[parts], position[parts], velocity[parts];
+  };
+  Ends before, after;
+};
+
+/// Samples [from, from + width].
+inline void sample(const JointSeries& joint, double from, double width, Samples& out) {
+  alignas(64) static constexpr double sixteenths[Samples::parts] = {
+      0.0,      1.0 / 16, 2.0 / 16,  3.0 / 16,  4.0 / 16,  5.0 / 16,  6.0 / 16,  7.0 / 16,
+      8.0 / 16, 9.0 / 16, 10.0 / 16, 11.0 / 16, 12.0 / 16, 13.0 / 16, 14.0 / 16, 15.0 / 16};
+  for (int i = 0; i < Samples::parts; i += Pack::lanes) {
+    // Both ends of each part are evaluated, which is quicker than moving the results along by one place.
+    const Pack part = load(sixteenths + i);
+    const Pack t0 = fma(part, Pack(width), Pack(from));
+    const Pack t1 = fma(part + Pack(1.0 / 16), Pack(width), Pack(from));
+    Pack v0(joint.x[order * Pack::lanes]);
+    Pack p0 = v0 * Pack(1.0 / (order + 1));
+    Pack v1 = v0, p1 = p0;
+    unroll<0, order>([&]<int j>() {
+      constexpr int k = order - 1 - j;
+      const Pack x(joint.x[k * Pack::lanes]);
+      const Pack integrated = x * Pack(1.0 / (k + 1));
+      v0 = fma(v0, t0, x);
+      v1 = fma(v1, t1, x);
+      p0 = fma(p0, t0, integrated);
+      p1 = fma(p1, t1, integrated);
+    });
+    const Pack start(joint.start);
+    store(out.before.t + i, t0);
+    store(out.before.velocity + i, v0);
+    store(out.before.position + i, fma(p0, t0, start));
+    store(out.after.t + i, t1);
+    store(out.after.velocity + i, v1);
+    store(out.after.position + i, fma(p1, t1, start));
+  }
+}
+
+/// What a set of samples says of a guard, a bit a part.
+struct Evidence {
+  std::uint32_t crossing{0};   ///< it goes from positive to <= 0 between the part's ends
+  std::uint32_t uncertain{0};  ///< positive at both ends, and it may have dipped between them
+};
+
+/// The guard of align: sqrt(E^2 + V^2) - radius.
+struct AlignGuard {
+  double radius;
+
+  [[nodiscard]] Evidence judge(const Samples& s, double slack, double width) const {
+    Evidence evidence;
+    for (int i = 0; i < Samples::parts; i += Pack::lanes) {
+      const Pack E0 = load(s.before.position + i), V0 = load(s.before.velocity + i);
+      const Pack E1 = load(s.after.position + i), V1 = load(s.after.velocity + i);
+      const Pack limit(radius * radius);
+      const Mask out0 = limit < fma(E0, E0, V0 * V0);
+      const Mask out1 = limit < fma(E1, E1, V1 * V1);
+      const Mask quiet = chord_avoids(E0, V0, E1, V1, Pack(radius + slack + slack * width));
+      evidence.crossing |= bits(out0 & !out1) << i;
+      evidence.uncertain |= bits(out0 & out1 & !quiet) << i;
+    }
+    return evidence;
+  }
+  /// A function with the guard's sign and roots, and its derivatives.
+  [[nodiscard]] double value(double position, double velocity) const {
+    return std::fma(position, position, velocity * velocity) - radius * radius;
+  }
+  [[nodiscard]] double rate(const JointSeries::Motion& m) const {
+    return 2.0 * m.velocity * (m.position + m.acceleration);
+  }
+  [[nodiscard]] double curvature(const JointSeries::Motion& m) const {
+    return 2.0 * (m.acceleration * (m.position + m.acceleration) + m.velocity * (m.velocity + m.jerk));
+  }
+};
+
+/// A guard of drift: sign * position - bound, or sign * velocity - bound.
+struct DriftGuard {
+  bool of_velocity;
+  double sign;
+  double bound;
+
+  [[nodiscard]] Evidence judge(const Samples& s, double slack, double width) const {
+    const double* before = of_velocity ? s.before.velocity : s.before.position;
+    const double* after = of_velocity ? s.after.velocity : s.after.position;
+    const Pack allowance(of_velocity ? slack : slack * width);
+    Evidence evidence;
+    for (int i = 0; i < Samples::parts; i += Pack::lanes) {
+      const Pack g0 = Pack(sign) * load(before + i) - Pack(bound);
+      const Pack g1 = Pack(sign) * load(after + i) - Pack(bound);
+      const Mask positive0 = Pack(0.0) < g0;
+      const Mask positive1 = Pack(0.0) < g1;
+      evidence.crossing |= bits(positive0 & !positive1) << i;
+      evidence.uncertain |= bits(positive0 & positive1 & (min(g0, g1) <= allowance)) << i;
+    }
+    return evidence;
+  }
+  [[nodiscard]] double value(double position, double velocity) const {
+    return sign * (of_velocity ? velocity : position) - bound;
+  }
+  [[nodiscard]] double rate(const JointSeries::Motion& m) const {
+    return sign * (of_velocity ? m.acceleration : m.velocity);
+  }
+  [[nodiscard]] double curvature(const JointSeries::Motion& m) const {
+    return sign * (of_velocity ? m.jerk : m.acceleration);
+  }
+};
+
+/// The guard's root in (low, high], where it goes from positive to <= 0, to rounding: Halley's method kept in the
+/// bracket, from the chord's root.
+template <class Guard>
+double refine(const Guard& guard, const JointSeries& joint, double low, double high, double g_low, double g_high) {
+  const double width = high - low;
+  double t = std::fma(width, g_low / (g_low - g_high), low);
+  for (int i = 0; i < 60; ++i) {
+    const JointSeries::Motion motion = joint.at(t);
+    const double g = guard.value(motion.position, motion.velocity);
+    (g > 0.0 ? low : high) = t;
+    const double rate = guard.rate(motion);
+    const double change = 2.0 * g * rate / (2.0 * rate * rate - g * guard.curvature(motion));
+    double next = t - change;
+    // Convergence is cubic: after a change this small the next would be lost in rounding.
+    if (std::abs(change) <= 1e-5 * width) return std::clamp(next, low, high);
+    if (!(low < next && next < high)) {
+      next = 0.5 * (low + high);
+      if (!(low < next && next < high)) return high;
+    }
+    t = next;
+  }
+  return high;
+}
+
+/// A span narrower than 16^-4 of a step is not searched for dips: what could hide there is below rounding.
+inline constexpr int deepest = 3;
+
+/// The first time in (from, from + width] at which the guard goes from positive to <= 0; infinity where it does not.
+///
+/// @param bend   bound on |second derivative of the velocity| over the step [1/s^2 times its unit]
+template <class Guard>
+double first_crossing(const Guard& guard, const JointSeries& joint, double from, double width, double bend,
+                      int depth = 0) {
+  Samples s;
+  sample(joint, from, width, s);
+  const double part = width / Samples::parts;
+  Evidence evidence = guard.judge(s, bend * part * part * 0.125, part);
+  if (depth == deepest) evidence.uncertain = 0;
+  std::uint32_t suspects = evidence.crossing | evidence.uncertain;
+  while (suspects != 0) {
+    const int i = std::countr_zero(suspects);
+    if ((evidence.crossing >> i & 1) != 0) {
+      return refine(guard, joint, s.before.t[i], s.after.t[i], guard.value(s.before.position[i], s.before.velocity[i]),
+                    guard.value(s.after.position[i], s.after.velocity[i]));
+    }
+    const double found = first_crossing(guard, joint, s.before.t[i], part, bend, depth + 1);
+    if (found < Phase::unbounded) return found;
+    suspects &= suspects - 1;
+  }
+  return Phase::unbounded;
+}
+
+/// The first time [s] since the step's start, within the step, at which a guard of the lane's phase fires; infinity
+/// where none does.
+[[gnu::noinline, gnu::flatten]] inline double locate_guard(const Lanes& lanes, int lane) {
+  const double h = lanes.h[lane];
+  const double bend = lanes.bend[lane] / (h * h);
+  if (lanes.radius[lane] >= 0.0) {
+    return first_crossing(AlignGuard{lanes.radius[lane]}, first_joint(lanes, lane), 0.0, h, bend);
+  }
+  const JointSeries joint = second_joint(lanes, lane);
+  double first = Phase::unbounded;
+  const auto consider = [&](const DriftGuard& guard) {
+    if (std::abs(guard.bound) < Phase::unbounded) {
+      first = std::min(first, first_crossing(guard, joint, 0.0, h, bend));
+    }
+  };
+  consider({false, 1.0, lanes.q2_low[lane]});
+  consider({false, -1.0, -lanes.q2_high[lane]});
+  consider({true, lanes.direction[lane], lanes.speed_floor[lane]});
+  return first;
+}
+
+}  // namespace steerstat::STEERSTAT_ISA

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "control/supervisor.hpp"
+#include "integrate/lockstep_engine.hpp"
+#include "trial/runner.hpp"
+
+namespace steerstat {
+
+/// Runs trials side by side on the lockstep engine; a lane whose trial has ended takes the stream's next one. Not
+/// thread-safe: one runner a thread.
+class LockstepRunner final : public TrialRunner {
+ public:
+  LockstepRunner(double tolerance, InstructionSet set);
+
+  using TrialRunner::run;
+  void run(TrialStream& stream) override;
+
+  [[nodiscard]] const LockstepEngine& engine() const { return *engine_; }
+
+ private:
+  /// The trial in a lane.
+  struct Seat {
+    std::uint64_t index{0};
+    TrialParameters parameters{};
+    Memory memory{};
+  };
+
+  bool take_next(TrialStream& stream, int lane);
+  bool carry_on(TrialStream& stream, int lane, double t, const State<double>& x);
+
+  std::unique_ptr<LockstepEngine> engine_;
+  std::vector<Seat> seats_;
+};
+
+}  // namespace steerstat
