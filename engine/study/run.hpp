@@ -27,7 +27,8 @@ struct RunOptions {
   std::function<void(const Progress&)> on_progress{};
   std::stop_token stop{};  ///< a request ends the run after the blocks in flight
   /// Makes each worker's runner, on that worker.
-  std::function<std::unique_ptr<TrialRunner>(const IntegratorChoice&)> make_runner{steerstat::make_runner};
+  std::function<std::unique_ptr<TrialRunner>(const IntegratorChoice&)> make_runner{
+      [](const IntegratorChoice& integrator) { return steerstat::make_runner(integrator); }};
 };
 
 /// Finished trials, as columns in index order. Whole blocks only: a run that was stopped keeps every block it had
