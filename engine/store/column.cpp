@@ -10,13 +10,25 @@ namespace {
 /// Rows a chunk: 512 KiB of doubles, well inside HDF5's chunk cache of 1 MiB.
 constexpr hsize_t most_chunk_rows = 65536;
 
-Handle creation_properties(hsize_t rows) {
+/// @param rows  > 0
+/// @return rows a chunk, for chunks of about the same size, since HDF5 stores the last one in full
+hsize_t chunk_rows(hsize_t rows) {
+  const hsize_t chunks = (rows + most_chunk_rows - 1) / most_chunk_rows;
+  return (rows + chunks - 1) / chunks;
+}
+
+Handle creation_properties(hsize_t rows, bool compressed) {
   const std::string what = "cannot set up a dataset";
+  constexpr unsigned fastest = 1;
   Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, what);
   checked(H5Pset_obj_track_times(properties.id(), false), what);  // the same trials, the same bytes
   if (rows == 0) return properties;                               // nothing to cut into chunks
-  const hsize_t chunk = std::min(rows, most_chunk_rows);
+  const hsize_t chunk = chunk_rows(rows);
   checked(H5Pset_chunk(properties.id(), 1, &chunk), what);
+  if (compressed) {
+    checked(H5Pset_shuffle(properties.id()), what);
+    checked(H5Pset_deflate(properties.id(), fastest), what);
+  }
   checked(H5Pset_fletcher32(properties.id()), what);
   return properties;
 }
@@ -28,7 +40,8 @@ void write_column(hid_t group, const std::string& name, NumberType type, const v
   const std::string what = "cannot write the dataset " + name;
   const hsize_t extent = rows;
   const Handle space(H5Screate_simple(1, &extent, nullptr), H5Sclose, what);
-  const Handle properties = creation_properties(extent);
+  // Whole numbers shrink to a fifth in no time; real ones keep nine tenths of their size for ten times the time.
+  const Handle properties = creation_properties(extent, H5Tget_class(type.stored) != H5T_FLOAT);
   const Handle dataset(
       H5Dcreate2(group, name.c_str(), type.stored, space.id(), H5P_DEFAULT, properties.id(), H5P_DEFAULT), H5Dclose,
       what);

@@ -9,7 +9,7 @@
 /// One-dimensional datasets, row by row, and their `units`.
 namespace steerstat::hdf5 {
 
-/// Writes a dataset (rows) of any type: chunked, with a Fletcher-32 checksum on every chunk.
+/// Writes a dataset (rows) of any type: chunked, a Fletcher-32 checksum on every chunk, whole numbers compressed.
 ///
 /// @param rows  at `type` in memory, `stored` in the file
 void write_column(hid_t group, const std::string& name, NumberType type, const void* data, std::size_t rows,
