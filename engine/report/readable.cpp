@@ -9,7 +9,8 @@ namespace steerstat {
 
 std::string readable_count(std::uint64_t count) {
   std::string digits = fmt::format("{}", count);
-  for (std::size_t from_end = 3; from_end < digits.size(); from_end += 4) digits.insert(digits.size() - from_end, ",");
+  for (std::size_t from_end = 3; from_end < digits.size(); from_end += 4)
+    digits.insert(digits.size() - from_end, 1, ',');
   return digits;
 }
 
