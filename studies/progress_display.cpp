@@ -79,7 +79,7 @@ void ProgressDisplay::show(const Progress& progress) {
   const bool stopping = stop_.stop_requested();
   if (style_ == ProgressStyle::bar) {
     // Back to the line's start, the line, and whatever an earlier, longer one left behind it erased.
-    tell_raw("\r" + bar_line(progress, terminal_columns(), stopping) + "\x1b[K");
+    tell_raw(fmt::format("\r{}\x1b[K", bar_line(progress, terminal_columns(), stopping)));
     drawn_ = true;
   } else if (style_ == ProgressStyle::lines) {
     if (stopping && !said_stopping_) {
