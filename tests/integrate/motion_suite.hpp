@@ -128,9 +128,10 @@ TYPED_TEST_P(IntegratorMotion, TheBitsDependOnTheArgumentsAlone) {
   TypeParam fresh(1e-9);
   TypeParam used(1e-9);
   used.advance(loop, cycle_phase(150.0, 2.0), 0.0, {0.0, -0.7, 0.0, 0.0}, 2.0);
-  used.advance(loop, drift_phase(0.3, 0.3), 2.0, {0.0, 0.3, 0.0, 0.1}, 3.0);  // two guards at zero from the start
+  used.advance(loop, drift_phase(0.3, 0.3), 2.0, {0.0, 0.3, 0.0, 0.0}, 3.0);  // two guards at zero throughout
   StepRecorder recorder;
-  for (const Phase& phase : {align_phase(1e-3), drift_phase(-1.0, 1.0), cycle_phase(40.0, 1.5)}) {
+  for (const Phase& phase :
+       {drift_phase(-1.0, 0.4 + 1e-9), align_phase(1e-3), drift_phase(-1.0, 0.7), cycle_phase(40.0, 1.5)}) {
     const State<double> x0{0.5, 0.4, -0.2, 0.25};
     const Arrival once = fresh.advance(loop, phase, 11.0, x0, 12.5);
     const Arrival again = used.advance(loop, phase, 11.0, x0, 12.5);
