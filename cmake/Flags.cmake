@@ -5,7 +5,9 @@ target_compile_options(steerstat_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Wnon-virtual-dtor -Wold-style-cast
   -Woverloaded-virtual -Wnull-dereference -Wdouble-promotion -Wformat=2 -Wimplicit-fallthrough -Wcast-align -Wundef
   # The same bits from every compiler and instruction set: a product and a sum fuse only where the source says fma.
-  -ffp-contract=off)
+  -ffp-contract=off
+  # sqrt is one instruction where nobody asks for errno.
+  -fno-math-errno)
 if(STEERSTAT_WERROR)
   target_compile_options(steerstat_flags INTERFACE -Werror)
 endif()

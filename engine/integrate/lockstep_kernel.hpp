@@ -18,13 +18,13 @@ class Kernel final : public LockstepEngine {
     const double K = plant.moment / plant.inertia;
     Trial& trial = trials_[lane];
     trial.K = K;
-    trial.K_nominal = nominal.moment / nominal.inertia;
     trial.loop = loop;
     lanes_.loop.slip[lane] = plant.f2 / plant.inertia;
     lanes_.loop.mismatch[lane] = K * (plant.moment - nominal.moment) / plant.mass;
-    lanes_.loop.drive[lane] = K / trial.K_nominal * (nominal.mass / plant.mass);
+    lanes_.loop.drive[lane] = nominal.mass / plant.mass;
     lanes_.loop.damping[lane] = plant.f1 / plant.mass;
     lanes_.loop.belief[lane] = K * nominal.moment / plant.mass;
+    lanes_.loop.ratio[lane] = nominal.moment / nominal.inertia / K;
     lanes_.scale[lane] = 1.0 / std::abs(K);
     seated_ |= 1u << lane;
   }
@@ -43,12 +43,11 @@ class Kernel final : public LockstepEngine {
     lanes_.t_end[lane] = t_end - t;
 
     const bool aligning = phase.kind == PhaseKind::align;
-    const double gain = aligning ? -trial.K_nominal / K : 0.0;
-    lanes_.kp[lane] = gain * trial.loop.kp;
-    lanes_.kd[lane] = gain * trial.loop.kd;
+    lanes_.kp[lane] = aligning ? -trial.loop.kp : 0.0;
+    lanes_.kd[lane] = aligning ? -trial.loop.kd : 0.0;
     const bool cycling = phase.kind == PhaseKind::contraction || phase.kind == PhaseKind::swing;
     const double rate = cycling ? 1.0 / phase.duration : 0.0;
-    double factor = cycling ? trial.K_nominal * phase.amplitude * rate * rate : 0.0;  // (11)
+    double factor = cycling ? K * phase.amplitude * rate * rate : 0.0;  // (11)
     for (std::size_t i = 0; i < 5; ++i) {
       factor *= rate;
       lanes_.cycle[i][lane] = cycle_coefficients[i] * factor;
@@ -111,7 +110,7 @@ class Kernel final : public LockstepEngine {
  private:
   struct Trial {
     ClosedLoop<double> loop;
-    double K, K_nominal;
+    double K;
     double t_start, t_end;
     Cause cause;
   };

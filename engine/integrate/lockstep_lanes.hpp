@@ -124,8 +124,8 @@ inline Mask proves_quiet(const Lanes& lanes, Pack E, Pack q2, Pack V, Pack w, Pa
   law.kp = load(lanes.kp);
   law.kd = load(lanes.kd);
   shift_cycle(lanes, t, law.cycle);
-  const LoopConstants<Pack> loop{load(lanes.loop.slip), load(lanes.loop.mismatch), load(lanes.loop.drive),
-                                 load(lanes.loop.damping), load(lanes.loop.belief)};
+  const LoopConstants<Pack> loop{load(lanes.loop.slip),    load(lanes.loop.mismatch), load(lanes.loop.drive),
+                                 load(lanes.loop.damping), load(lanes.loop.belief),   load(lanes.loop.ratio)};
   expand<order>(loop, law, E0, q20, V0, w0, lanes.series);
   const auto& [series_V, series_w] = lanes.series;
 

@@ -15,24 +15,24 @@ template <int first, int last, class Body>
 /// What the closed loop of a trial is made of: (1)-(2) of the true plant under the linearising force of the nominal
 /// one.
 ///
-/// The first joint is scaled by the true coupling K: E = K (q1 - q1_goal), V = K q1_dot, and the command by the nominal
-/// one, b = K_nominal a. With y = sin(q2) q2_dot, whose derivative collects the centrifugal terms and the inertia
-/// coupling of both equations,
-///     V' = mismatch y' + drive b - damping V + belief (sin^2(q2) (V' - b) - slip y)
+/// The first joint is scaled by the true coupling K: E = K (q1 - q1_goal), V = K q1_dot, b = K a. With
+/// y = sin(q2) q2_dot, whose derivative collects the centrifugal terms and the inertia coupling of both equations,
+///     V' = mismatch y' + drive b - damping V + belief (sin^2(q2) (V' - ratio b) - slip y)
 ///     q2_ddot = sin(q2) V' - slip q2_dot
 /// which takes four and a half convolutions an order and no division of series.
 template <class Real>
 struct LoopConstants {
   Real slip;      ///< [1/s] f2 / (I2 + m2 d2^2)
   Real mismatch;  ///< K (true - nominal m2 d2) / (m1 + m2)
-  Real drive;     ///< K / K_nominal * nominal (m1 + m2) / (m1 + m2)
+  Real drive;     ///< nominal (m1 + m2) / (m1 + m2)
   Real damping;   ///< [1/s] f1 / (m1 + m2)
   Real belief;    ///< K nominal m2 d2 / (m1 + m2)
+  Real ratio;     ///< K nominal / K
 };
 
 /// The law for b as a series: b = kp E + kd V + sum of cycle[k] t^k, t [s] since the step's start.
 struct LawSeries {
-  Pack kp, kd;    ///< minus the gains times K_nominal / K; zero unless aligning
+  Pack kp, kd;    ///< minus the gains; zero unless aligning
   Pack cycle[6];  ///< zero unless in a cycle
 };
 
@@ -49,7 +49,7 @@ template <int order>
                                             Pack V0, Pack w0, Expansion<order>& out) {
   Pack s[order + 1], c[order + 1], S2[order + 1];  // sin q2, cos q2, sin^2 q2
   Pack y[order + 1];
-  Pack dV[order], X[order];  // V', V' - b
+  Pack dV[order], X[order];  // V', V' - ratio b
   Pack(&V)[order + 1] = out.V;
   Pack(&w)[order + 1] = out.w;
 
@@ -68,7 +68,7 @@ template <int order>
   const Pack by_B = by_dy * s[0];
   const Pack by_G = D * loop.belief;
   const Pack by_y = by_G * minus_slip;
-  const Pack by_b = fnma(by_G, S2[0], D * loop.drive);
+  const Pack by_b = fnma(by_G * S2[0], loop.ratio, D * loop.drive);
   const Pack by_V = -(D * loop.damping);
   Pack by_Y = by_dy;
 
@@ -83,7 +83,7 @@ template <int order>
       b = fma(law.kd, V[n], law.kp * (V[n - 1] * Pack(1.0 / n)));
 
     // The convolutions side by side, so that a coefficient is loaded once, and the newest coefficients last.
-    Pack B, G, Y, square;  // (sin(q2) V', sin^2(q2) (V' - b) but for the unknown V'[n]; y[n + 1] but for w[n + 1]
+    Pack B, G, Y, square;  // (sin(q2) V', sin^2(q2) (V' - ratio b) but for the unknown V'[n]; y[n + 1] but for w[n + 1]
     Pack z = c[n] * w[0];  // cos(q2) q2_dot
     unroll<0, n>([&]<int i>() {
       constexpr int k = n - i;
@@ -125,7 +125,7 @@ template <int order>
     const Pack rate = fma(by_Y, Y, early + late);
     by_Y = by_Y + by_dy;
     dV[n] = rate;
-    X[n] = rate - b;
+    X[n] = fnma(loop.ratio, b, rate);
     V[n + 1] = rate * Pack(step);
     w[n + 1] = fma(s[0], rate, B) * Pack(step);
     y[n + 1] = fma(s[0], w[n + 1], Y);
