@@ -1,0 +1,107 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "sample_summary.hpp"
+
+namespace steerstat {
+namespace {
+
+using namespace testing_report;
+using Json = nlohmann::ordered_json;
+
+std::vector<std::string> keys_of(const Json& object) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : object.items()) keys.push_back(key);
+  return keys;
+}
+
+Json json_of(const Summary& summary) {
+  return Json::parse(summary_json(summary));
+}
+
+const std::vector<std::string> sample_keys{"mean", "std", "min", "p05", "p50", "p95", "p99", "max"};
+
+TEST(SummaryJson, HasTheInterfacesKeysInItsOrder) {
+  const Json json = json_of(made_up_sweep(2));
+  EXPECT_EQ(keys_of(json),
+            (std::vector<std::string>{"study", "complete", "trials", "success_rate", "outcomes", "settling_time",
+                                      "cycles", "cells", "gates", "audit", "performance"}));
+  EXPECT_EQ(keys_of(json["study"]), (std::vector<std::string>{"id", "name", "spec_sha256", "engine_version", "seed"}));
+  EXPECT_EQ(keys_of(json["trials"]), (std::vector<std::string>{"requested", "completed"}));
+  EXPECT_EQ(keys_of(json["success_rate"]),
+            (std::vector<std::string>{"estimate", "ci_low", "ci_high", "level", "method"}));
+  EXPECT_EQ(keys_of(json["outcomes"]),
+            (std::vector<std::string>{"converged", "timeout", "singular", "diverged", "integrator_failed"}));
+  EXPECT_EQ(keys_of(json["settling_time"]), sample_keys);
+  EXPECT_EQ(keys_of(json["cycles"]), sample_keys);
+  EXPECT_EQ(keys_of(json["cells"][0]),
+            (std::vector<std::string>{"sweep", "trials", "success_rate", "outcomes", "settling_time", "cycles"}));
+  EXPECT_EQ(keys_of(json["performance"]), (std::vector<std::string>{"wall_s", "trials_per_s", "threads"}));
+}
+
+TEST(SummaryJson, HoldsTheSummarysValuesToTheBit) {
+  const Summary summary = made_up_summary({7, 2, 1, 0, 0});
+  const Json json = json_of(summary);
+  EXPECT_EQ(json["study"]["seed"], 7);
+  EXPECT_EQ(json["trials"]["completed"], 10);
+  EXPECT_EQ(json["success_rate"]["estimate"].get<double>(), 0.7);
+  EXPECT_EQ(json["success_rate"]["ci_low"].get<double>(), summary.all.success_rate->low);
+  EXPECT_EQ(json["success_rate"]["ci_high"].get<double>(), summary.all.success_rate->high);
+  EXPECT_EQ(json["success_rate"]["method"], "wilson");
+  EXPECT_EQ(json["outcomes"]["singular"], 1);
+  EXPECT_EQ(json["settling_time"]["mean"].get<double>(), 40.0);
+  EXPECT_EQ(json["settling_time"]["std"].get<double>(), *summary.all.settling_time->std);
+  EXPECT_EQ(json["settling_time"]["p99"].get<double>(), summary.all.settling_time->p99);
+  EXPECT_EQ(json["cycles"]["max"].get<double>(), 7.0);
+  EXPECT_EQ(json["gates"], Json::array());
+  EXPECT_TRUE(json["audit"].is_null());
+  EXPECT_EQ(json["performance"]["trials_per_s"].get<double>(), 2.5);
+}
+
+TEST(SummaryJson, KeepsSeedsAndCountsOfSixtyFourBits) {
+  Summary summary = made_up_summary({1, 0, 0, 0, 0});
+  summary.seed = 18446744073709551615ULL;
+  EXPECT_EQ(json_of(summary)["study"]["seed"].get<std::uint64_t>(), summary.seed);
+}
+
+TEST(SummaryJson, IsNullWhereThereIsNoData) {
+  Summary summary = made_up_summary({});
+  summary.wall_s = 0.0;
+  const Json json = json_of(summary);
+  for (const char* key : {"estimate", "ci_low", "ci_high"}) EXPECT_TRUE(json["success_rate"][key].is_null()) << key;
+  EXPECT_EQ(json["success_rate"]["level"], 0.95);
+  for (const std::string& key : sample_keys) {
+    EXPECT_TRUE(json["settling_time"][key].is_null()) << key;
+    EXPECT_TRUE(json["cycles"][key].is_null()) << key;
+  }
+  EXPECT_TRUE(json["performance"]["trials_per_s"].is_null());
+}
+
+TEST(SummaryJson, HasNoSpreadForASingleTrial) {
+  const Json json = json_of(made_up_summary({1, 4, 0, 0, 0}));
+  EXPECT_TRUE(json["settling_time"]["std"].is_null());
+  EXPECT_EQ(json["settling_time"]["mean"], 10.0);
+}
+
+TEST(SummaryJson, GivesEveryCellItsSweptValuesAndItsShareOfTheTrials) {
+  const Json json = json_of(made_up_sweep(30));
+  ASSERT_EQ(json["cells"].size(), 30U);
+  EXPECT_EQ(json["cells"][7]["sweep"]["controller.contraction.eta1"].get<double>(), 0.007);
+  EXPECT_EQ(json["cells"][7]["trials"]["requested"], 10);
+  EXPECT_EQ(json["cells"][7]["success_rate"]["estimate"], 0.7);
+  EXPECT_EQ(json["cells"][7]["outcomes"]["timeout"], 3);
+}
+
+TEST(SummaryJson, SurvivesANameThatIsNotUtf8) {
+  Summary summary = made_up_summary({1, 0, 0, 0, 0});
+  summary.name = "a\xff";
+  EXPECT_EQ(json_of(summary)["study"]["name"], "a\uFFFD");
+}
+
+TEST(SummaryJson, EndsInALine) {
+  EXPECT_EQ(summary_json(made_up_summary({})).back(), '\n');
+}
+
+}  // namespace
+}  // namespace steerstat

@@ -1,0 +1,125 @@
+#include "report/summary.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/version.hpp"
+#include "study/plan.hpp"
+#include "study/spec_json.hpp"
+
+namespace steerstat {
+namespace {
+
+Study sweep_of_two(std::uint64_t trials) {
+  return decode_study(R"({"name": "two cells", "plant": {"m1": {"uniform": [0.8, 1.2]}},
+                          "controller": {"contraction": {"eta1": {"sweep": [0.3, 0.5]}}},
+                          "sampling": {"trials": )" +
+                          std::to_string(trials) + R"(, "seed": 11}})",
+                      {});
+}
+
+TrialOutcome ended(Status status, double end_time, std::uint32_t cycles) {
+  TrialOutcome outcome;
+  outcome.status = status;
+  outcome.end_time = end_time;
+  outcome.cycles = cycles;
+  return outcome;
+}
+
+/// Six of the trials of sweep_of_two(4): cell 0 has the trials of even index.
+StudyResult six_trials() {
+  StudyResult result;
+  result.trials.index = {0, 1, 2, 3, 4, 7};
+  result.trials.outcomes = {ended(Status::converged, 40.0, 5), ended(Status::timeout, 300.0, 20),
+                            ended(Status::converged, 50.0, 6), ended(Status::singular, 3.0, 0),
+                            ended(Status::diverged, 9.0, 1),   ended(Status::converged, 90.0, 9)};
+  result.wall_s = 2.0;
+  result.threads = 2;
+  return result;
+}
+
+TEST(Summarise, SaysWhichStudyItIsOf) {
+  const Study study = sweep_of_two(4);
+  const Summary summary = summarise(study, six_trials());
+  EXPECT_EQ(summary.id, study_id(study));
+  EXPECT_EQ(summary.name, "two cells");
+  EXPECT_EQ(summary.spec_sha256, spec_sha256(study));
+  EXPECT_EQ(summary.engine_version, engine_version());
+  EXPECT_EQ(summary.seed, 11U);
+  EXPECT_FALSE(summary.complete);
+  EXPECT_EQ(summary.requested, 8U);
+  EXPECT_EQ(summary.wall_s, 2.0);
+  EXPECT_EQ(summary.threads, 2U);
+}
+
+TEST(Summarise, CountsEveryFinishedTrialInTheDenominator) {
+  const TrialStatistics all = summarise(sweep_of_two(4), six_trials()).all;
+  EXPECT_EQ(all.completed, 6U);
+  EXPECT_EQ(all.outcomes, (std::array<std::uint64_t, 5>{3, 1, 1, 1, 0}));
+  ASSERT_TRUE(all.success_rate);
+  EXPECT_EQ(all.success_rate->estimate, 0.5);
+  EXPECT_EQ(all.success_rate->low, wilson_interval(3, 6, 0.95).low);
+  EXPECT_EQ(all.success_rate->high, wilson_interval(3, 6, 0.95).high);
+  EXPECT_EQ(all.success_rate->level, 0.95);
+}
+
+TEST(Summarise, DescribesTheConvergedTrialsAlone) {
+  const TrialStatistics all = summarise(sweep_of_two(4), six_trials()).all;
+  EXPECT_EQ(all.settling_time, describe(std::vector<double>{40.0, 50.0, 90.0}));
+  EXPECT_EQ(all.cycles, describe(std::vector<double>{5.0, 6.0, 9.0}));
+}
+
+TEST(Summarise, GivesEachCellItsOwnTrials) {
+  const Summary summary = summarise(sweep_of_two(4), six_trials());
+  ASSERT_EQ(summary.cells.size(), 2U);
+  ASSERT_EQ(summary.cells[1].sweep.size(), 1U);
+  EXPECT_EQ(summary.cells[1].sweep[0].name, "controller.contraction.eta1");
+  EXPECT_EQ(summary.cells[0].sweep[0].value, 0.3);
+  EXPECT_EQ(summary.cells[1].sweep[0].value, 0.5);
+  EXPECT_EQ(summary.cells[0].statistics.outcomes, (std::array<std::uint64_t, 5>{2, 0, 0, 1, 0}));
+  EXPECT_EQ(summary.cells[1].statistics.outcomes, (std::array<std::uint64_t, 5>{1, 1, 1, 0, 0}));
+  EXPECT_EQ(summary.cells[0].statistics.settling_time, describe(std::vector<double>{40.0, 50.0}));
+  EXPECT_EQ(summary.cells[1].statistics.settling_time, describe(std::vector<double>{90.0}));
+}
+
+TEST(Summarise, HasNoStatisticsWithoutTrials) {
+  const Summary summary = summarise(sweep_of_two(4), StudyResult{});
+  EXPECT_EQ(summary.all.completed, 0U);
+  EXPECT_FALSE(summary.all.success_rate);
+  EXPECT_FALSE(summary.all.settling_time);
+  EXPECT_FALSE(summary.all.cycles);
+  ASSERT_EQ(summary.cells.size(), 2U);
+  EXPECT_FALSE(summary.cells[0].statistics.success_rate);
+}
+
+TEST(Summarise, HasASuccessRateButNoSettlingTimeWhereNoTrialConverged) {
+  StudyResult result;
+  result.trials.index = {0};
+  result.trials.outcomes = {ended(Status::timeout, 300.0, 3)};
+  result.complete = true;
+  const Summary summary = summarise(decode_study("{}", {}), result);
+  ASSERT_TRUE(summary.all.success_rate);
+  EXPECT_EQ(summary.all.success_rate->estimate, 0.0);
+  EXPECT_FALSE(summary.all.settling_time);
+  EXPECT_TRUE(summary.cells.empty());
+  EXPECT_TRUE(summary.complete);
+}
+
+TEST(Summarise, CellsAddUpToTheWhole) {
+  StudyResult result;
+  for (std::uint64_t index = 0; index < 200; ++index) {
+    result.trials.index.push_back(index);
+    result.trials.outcomes.push_back(ended(static_cast<Status>(index * 7 % 5), static_cast<double>(index), 1));
+  }
+  const Summary summary = summarise(sweep_of_two(100), result);
+  for (std::size_t status = 0; status < status_names.size(); ++status) {
+    EXPECT_EQ(summary.cells[0].statistics.outcomes[status] + summary.cells[1].statistics.outcomes[status],
+              summary.all.outcomes[status]);
+  }
+  EXPECT_EQ(summary.cells[0].statistics.completed, 100U);
+}
+
+}  // namespace
+}  // namespace steerstat

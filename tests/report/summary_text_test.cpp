@@ -1,0 +1,129 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "report/text_table.hpp"
+#include "sample_summary.hpp"
+
+namespace steerstat {
+namespace {
+
+using namespace testing_report;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(SummaryText, TellsWhatAPersonAsksFirst) {
+  const std::string text = summary_text(made_up_summary({1403, 590, 5, 2, 0}), false);
+  EXPECT_THAT(text, HasSubstr("sample\n2,000 trials · seed 7 · id 0123456789abcdef · engine 0.1.0\n"));
+  EXPECT_THAT(text, HasSubstr("Success rate  70.15 %   95 % interval 68.11 to 72.12 % (Wilson)"));
+  EXPECT_THAT(text, HasSubstr("  timeout               590  29.50 %  ██████"));
+  EXPECT_THAT(text, HasSubstr("  integrator_failed       0        –\n"));
+  EXPECT_THAT(text, HasSubstr("settling time [s]  10.00  711.00  7020.00"));
+  EXPECT_THAT(text, HasSubstr("2,000 trials in 4.0 s on 2 threads: 500 trials/s"));
+  EXPECT_THAT(text, Not(HasSubstr("Incomplete")));
+}
+
+TEST(SummaryText, FitsATerminalAndLeavesNoSpacesAtLineEnds) {
+  for (const Summary& summary : {made_up_summary({1403, 590, 5, 2, 0}), made_up_sweep(5), made_up_sweep(300)}) {
+    for (const std::string& line : lines_of(summary_text(summary, false))) {
+      EXPECT_LE(display_width(line), 100U) << line;
+      EXPECT_TRUE(line.empty() || line.back() != ' ') << line;
+    }
+  }
+}
+
+TEST(SummaryText, IsTheSameWithColoursButForThem) {
+  const Summary summary = made_up_sweep(40);
+  std::string coloured = summary_text(summary, true);
+  EXPECT_NE(coloured, summary_text(summary, false));
+  while (coloured.find('\x1b') != std::string::npos) {
+    const std::size_t begin = coloured.find('\x1b');
+    coloured.erase(begin, coloured.find('m', begin) + 1 - begin);
+  }
+  EXPECT_EQ(coloured, summary_text(summary, false));
+}
+
+TEST(SummaryText, SaysThatARunIsIncomplete) {
+  Summary summary = made_up_summary({3, 1, 0, 0, 0});
+  summary.complete = false;
+  summary.requested = 5000;
+  EXPECT_THAT(summary_text(summary, false), HasSubstr("Incomplete: 4 of 5,000 trials finished"));
+}
+
+TEST(SummaryText, SaysThatNoTrialHasFinished) {
+  Summary summary = made_up_summary({});
+  summary.complete = false;
+  summary.requested = 10;
+  EXPECT_THAT(summary_text(summary, false), AllOf(HasSubstr("No trial has finished."), Not(HasSubstr("nan"))));
+}
+
+TEST(SummaryText, OfOneTrialIsOneSentence) {
+  EXPECT_THAT(summary_text(made_up_summary({1, 0, 0, 0, 0}), false),
+              AllOf(HasSubstr("converged after 10.000 s, 1 cycle\n"), Not(HasSubstr("interval"))));
+  EXPECT_THAT(summary_text(made_up_summary({0, 0, 1, 0, 0}), false), HasSubstr("  singular\n"));
+}
+
+TEST(SummaryText, HasNoSettlingTimesWhereNoTrialConverged) {
+  const std::string text = summary_text(made_up_summary({0, 50, 0, 0, 0}), false);
+  EXPECT_THAT(text, AllOf(HasSubstr("Success rate  0.0 %   95 % interval 0.0 to 7.1 %"),
+                          HasSubstr("  timeout                50  100.0 %"), Not(HasSubstr("settling"))));
+}
+
+TEST(SummaryText, ListsAllOfAFewCellsInTheirOrder) {
+  const std::string text = summary_text(made_up_sweep(24), false);
+  EXPECT_THAT(text, HasSubstr("240 trials (10 in each of 24 cells)"));
+  EXPECT_THAT(text, HasSubstr("\n   eta1  Success"));
+  const std::vector<std::string> lines = lines_of(text);
+  auto line = std::find_if(lines.begin(), lines.end(), [](const std::string& l) { return l.find("eta1") != l.npos; });
+  ASSERT_GT(lines.end() - line, 25);
+  line += 2;  // past the header and its rule
+  for (int cell = 0; cell < 24; ++cell, ++line) {
+    double value = -1.0;
+    double success = -1.0;
+    std::istringstream(*line) >> value >> success;
+    EXPECT_DOUBLE_EQ(value, 0.001 * cell) << *line;
+    EXPECT_EQ(success, 10.0 * (cell % 11)) << *line;
+  }
+  EXPECT_THAT(text, Not(HasSubstr("⋮")));
+  EXPECT_THAT(text, HasSubstr("10 timeout"));
+}
+
+TEST(SummaryText, ShortensManyCellsToTheBestAndTheWorstAndSaysWhereTheRestIs) {
+  const std::string text = summary_text(made_up_sweep(25), false);
+  EXPECT_THAT(text, HasSubstr("The 15 best and 5 worst of 25 cells by success rate; the JSON summary has them all."));
+  const std::vector<std::string> lines = lines_of(text);
+  const auto gap =
+      std::find_if(lines.begin(), lines.end(), [](const std::string& line) { return line.find("⋮") != line.npos; });
+  ASSERT_NE(gap, lines.end());
+  EXPECT_THAT(*(gap - 15), AllOf(HasSubstr("0.01 "), HasSubstr("100.0 %")));  // cell 10, all of ten
+  EXPECT_THAT(*(gap + 5), AllOf(HasSubstr("0.022 "), HasSubstr("0.0 %")));    // cell 22, none, last by number
+}
+
+TEST(SummaryText, NamesSweptInputsByWhatTellsThemApart) {
+  Summary summary = made_up_sweep(2);
+  for (Summary::Cell& cell : summary.cells) {
+    cell.sweep = {{"controller.alignment.tolerance", 1e-3}, {"controller.convergence.tolerance", 5e-3}};
+  }
+  EXPECT_THAT(summary_text(summary, false), HasSubstr("  alignment.tolerance  convergence.tolerance  Success"));
+  for (Summary::Cell& cell : summary.cells) cell.sweep = {{"plant.m1", 1.0}, {"controller.contraction.eta1", 0.5}};
+  EXPECT_THAT(summary_text(summary, false), HasSubstr("  m1  eta1  Success"));
+}
+
+TEST(SummaryText, DoesNotLetANameSteerTheTerminal) {
+  Summary summary = made_up_summary({1, 1, 0, 0, 0});
+  summary.name = "\x1b[2Jgone";
+  EXPECT_EQ(summary_text(summary, false).find('\x1b'), std::string::npos);
+}
+
+}  // namespace
+}  // namespace steerstat
