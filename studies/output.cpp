@@ -12,7 +12,6 @@
 #include <string>
 #include <system_error>
 
-#include "core/errors.hpp"
 #include "store/whole_file.hpp"
 
 namespace steerstat {
@@ -57,9 +56,11 @@ void secure_standard_streams() {
 }
 
 void print(std::string_view text) {
-  if (const int error = write_all(STDOUT_FILENO, text); error != 0) {
-    throw RunFailure("cannot write to standard output (" + reason(error) + ")");
-  }
+  const int error = write_all(STDOUT_FILENO, text);
+  if (error == 0) return;
+  const std::string message = "cannot write to standard output (" + reason(error) + ")";
+  if (error == EPIPE) throw ReaderGone(message);
+  throw RunFailure(message);
 }
 
 void tell_raw(std::string_view text) {

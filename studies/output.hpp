@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <string_view>
 
+#include "core/errors.hpp"
+
 namespace steerstat {
 
 enum class StandardStream : int { output = 1, error = 2 };
@@ -10,6 +12,12 @@ enum class StandardStream : int { output = 1, error = 2 };
 /// Makes the standard streams safe to write to: a closed one gets a descriptor that refuses writes, so that no file
 /// opened later is mistaken for it, and a reader that goes away is an error to report, not a signal to die of.
 void secure_standard_streams();
+
+/// Whoever read standard output stopped reading, as `head` does.
+class ReaderGone : public RunFailure {
+ public:
+  using RunFailure::RunFailure;
+};
 
 /// Writes results to standard output. @throws RunFailure where not all of it arrives (closed, full disk)
 void print(std::string_view text);

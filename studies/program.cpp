@@ -111,6 +111,8 @@ ExitCode run_program(int argc, const char* const* argv) noexcept {
   } catch (const BadSpec& bad) {
     tell(bad.what());
     return ExitCode::bad_request;
+  } catch (const ReaderGone&) {
+    // Its reader knows; nothing to say.
   } catch (const RunFailure& failure) {
     tell(failure.what());
   } catch (const std::bad_alloc&) {

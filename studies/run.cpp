@@ -28,7 +28,7 @@ Examples:
   steerstat run study.json
   steerstat run study.json -o result.h5 --summary summary.json
   steerstat run study.json --summary - --no-progress | jq .success_rate
-  generate-study | steerstat run - -o result.h5)";
+  make-study | steerstat run - -o result.h5)";
 
 struct Request {
   std::string spec;
@@ -62,9 +62,7 @@ void check_outputs(const Request& request) {
   if (summary_is_file) require_writable(request.summary);
 }
 
-/// Runs the trials; the signals that end them early are heard meanwhile.
-StudyResult run_trials(const Study& study, const Request& request) {
-  Interruption interruption;
+StudyResult run_trials(const Study& study, const Request& request, const Interruption& interruption) {
   ProgressDisplay display(request.no_progress ? ProgressStyle::none : progress_style(), interruption.token());
   RunOptions options;
   options.threads = request.threads;
@@ -104,11 +102,13 @@ bool write_outputs(const Request& request, const Study& study, const StudyResult
 ExitCode run(const Request& request) {
   const Study study = read_study(request.spec);
   check_outputs(request);
-  const StudyResult result = run_trials(study, request);
+  const Interruption interruption;  // to the end: an interrupt must not cost the outputs of a run that is over
+  const StudyResult result = run_trials(study, request, interruption);
   const bool written = write_outputs(request, study, result);
   if (!result.complete) {
-    tell(fmt::format("interrupted after {} of {} trials; they are {}", result.trials.index.size(), Plan(study).trials(),
-                     request.result.empty() ? "not kept (no -o)" : "kept"));
+    tell(fmt::format("interrupted after {} of {} trials{}", readable_count(result.trials.index.size()),
+                     readable_count(Plan(study).trials()),
+                     request.result.empty() ? "; without -o they are not kept" : ""));
   }
   if (!written) return ExitCode::run_failed;
   return result.complete ? ExitCode::done : ExitCode::interrupted;

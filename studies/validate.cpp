@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* epilogue = R"(Examples:
   steerstat validate study.json
-  generate-study | steerstat validate -
+  make-study | steerstat validate -
 
 Exits 0 when the spec is valid, 2 with every mistake on standard error when it is not.)";
 

@@ -1,8 +1,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "process.hpp"
 #include "store/result_file.hpp"
@@ -77,6 +83,18 @@ TEST_P(Interruption, TheSecondSignalEndsTheProcessAtOnceAndLeavesNoFile) {
   EXPECT_EQ(ending.signal, GetParam());
   EXPECT_EQ(ending.out, "");
   EXPECT_THAT(scratch.names(), ElementsAre("spec.json"));
+}
+
+TEST_P(Interruption, AfterTheLastTrialCostsNothing) {
+  const Scratch scratch;
+  const std::string spec = scratch.file("spec.json", R"({"horizon": 1})");
+  ASSERT_EQ(mkfifo((scratch / "summary").c_str(), 0600), 0);
+  Process process(STEERSTAT_PROGRAM, {"run", spec, "-o", scratch / "out.h5", "--summary", scratch / "summary"});
+  while (!std::filesystem::exists(scratch / "out.h5")) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  process.send(GetParam());  // while it waits for a reader of its summary
+  EXPECT_TRUE(Json::parse(read_file(scratch / "summary")).at("complete").get<bool>());
+  EXPECT_EQ(process.wait().exit_code, 0);
+  EXPECT_TRUE(read_result(scratch / "out.h5").result.complete);
 }
 
 INSTANTIATE_TEST_SUITE_P(Signals, Interruption, ::testing::Values(SIGINT, SIGTERM),

@@ -32,15 +32,20 @@ void expect_same_rows(const StoredStudy& a, const StoredStudy& b, std::size_t ro
 
 TEST(RunCommand, OneAndTwoThreadsWriteTheSameTrials) {
   const Scratch scratch;
-  const std::string spec = scratch.file("spec.json", perturbed);
-  ASSERT_EQ(steerstat({"run", spec, "--threads", "1", "-o", scratch / "1.h5"}).exit_code, 0);
-  ASSERT_EQ(steerstat({"run", spec, "--threads", "2", "-o", scratch / "2.h5"}).exit_code, 0);
-  const StoredStudy one = read_result(scratch / "1.h5");
-  EXPECT_TRUE(one.result.complete);
-  EXPECT_EQ(one.result.trials.index.size(), 40U);
-  expect_same_rows(one, read_result(scratch / "2.h5"), 40);
-  const Ending csv = steerstat({"export", scratch / "1.h5", "-o", "-"});
-  EXPECT_EQ(csv.out, steerstat({"export", scratch / "2.h5", "-o", "-"}).out);
+  for (const char* method : {"cvode", "lockstep"}) {
+    std::string text = perturbed;
+    text.replace(text.find("cvode"), 5, method);
+    text.replace(text.find("40"), 2, "300");
+    const std::string spec = scratch.file("spec.json", text);
+    ASSERT_EQ(steerstat({"run", spec, "--threads", "1", "-o", scratch / "1.h5"}).exit_code, 0);
+    ASSERT_EQ(steerstat({"run", spec, "--threads", "2", "-o", scratch / "2.h5"}).exit_code, 0);
+    const StoredStudy one = read_result(scratch / "1.h5");
+    EXPECT_TRUE(one.result.complete);
+    EXPECT_EQ(one.result.trials.index.size(), 300U);
+    expect_same_rows(one, read_result(scratch / "2.h5"), 300);
+    const Ending csv = steerstat({"export", scratch / "1.h5", "-o", "-"});
+    EXPECT_EQ(csv.out, steerstat({"export", scratch / "2.h5", "-o", "-"}).out);
+  }
 }
 
 TEST(RunCommand, ShowGivesTheSummaryOfTheRun) {
@@ -135,6 +140,18 @@ TEST(RunCommand, AFullOrClosedStandardOutputExitsWithFourButKeepsTheResult) {
     EXPECT_EQ(steerstat({"export", scratch / "out.h5", "-o", "-"}, surroundings).exit_code, 4);
     EXPECT_EQ(steerstat({"replay", scratch / "out.h5", "--trial", "0"}, surroundings).exit_code, 4);
   }
+}
+
+TEST(RunCommand, AReaderThatLeavesEarlyIsNoNews) {
+  const Scratch scratch;
+  const std::string spec = scratch.file("spec.json", R"({"horizon": 300})");
+  ASSERT_EQ(steerstat({"run", spec, "-o", scratch / "out.h5"}).exit_code, 0);
+  const std::string command = std::string("set -o pipefail; ") + STEERSTAT_PROGRAM + " replay " + (scratch / "out.h5") +
+                              " --trial 0 | head -n 1";
+  const Ending ending = Process("/bin/bash", {"-c", command}).wait();
+  EXPECT_EQ(ending.exit_code, 4);
+  EXPECT_EQ(ending.out, "t,q1,q2,q1_dot,q2_dot,a,tau,phase\n");
+  EXPECT_EQ(ending.err, "");
 }
 
 TEST(RunCommand, WritesASummaryToADeviceInPlace) {

@@ -91,16 +91,20 @@ void expect_kept_prefix(const Study& study, const TrialTable& trials) {
   }
 }
 
-TEST(RunStudy, OutcomesAreTheSameBitsOnOneTwoAndThreeThreads) {
-  const Study study = study_of(R"({
+class RunStudyOnAnEngine : public testing::TestWithParam<IntegratorChoice::Method> {};
+
+TEST_P(RunStudyOnAnEngine, OutcomesAreTheSameBitsOnOneTwoAndThreeThreads) {
+  Study study = study_of(R"({
       "plant": {"m1": {"uniform": [0.8, 1.2]}, "m2": {"uniform": [0.8, 1.2]}, "f2": {"uniform": [0, 0.05]}},
       "initial_state": {"q1": {"uniform": [-1, 1]}, "q2": {"uniform": [-3.1, 3.1]}},
-      "integrator": {"method": "cvode"}, "horizon": 60, "sampling": {"trials": 70}})");
+      "horizon": 60, "sampling": {"trials": 1}})");
+  study.integrator.method = GetParam();
+  study.sampling.trials = 4 * block_size(study) + 3;
   RunOptions options;
   options.threads = 1;
   const StudyResult one = run_study(study, options);
   EXPECT_TRUE(one.complete);
-  ASSERT_EQ(one.trials.outcomes.size(), 70U);
+  ASSERT_EQ(one.trials.outcomes.size(), study.sampling.trials);
   for (const unsigned threads : {2U, 3U}) {
     options.threads = threads;
     const StudyResult other = run_study(study, options);
@@ -111,6 +115,61 @@ TEST(RunStudy, OutcomesAreTheSameBitsOnOneTwoAndThreeThreads) {
     }
   }
 }
+
+/// Runs trials on an engine and requests a stop as soon as the first has finished.
+class StoppingRunner final : public TrialRunner {
+ public:
+  StoppingRunner(std::unique_ptr<TrialRunner> engine, std::stop_source& stop)
+      : engine_(std::move(engine)), stop_(stop) {}
+
+  using TrialRunner::run;
+  void run(TrialStream& stream) override {
+    struct Watch final : TrialStream {
+      Watch(TrialStream& watched, std::stop_source& source) : stream(watched), stop(source) {}
+      bool next(std::uint64_t& index, TrialParameters& parameters) override { return stream.next(index, parameters); }
+      void finished(std::uint64_t index, const TrialOutcome& outcome) override {
+        stop.request_stop();
+        stream.finished(index, outcome);
+      }
+      TrialStream& stream;
+      std::stop_source& stop;
+    };
+    Watch watch(stream, stop_);
+    engine_->run(watch);
+  }
+
+ private:
+  std::unique_ptr<TrialRunner> engine_;
+  std::stop_source& stop_;
+};
+
+TEST_P(RunStudyOnAnEngine, WhatAStoppedRunKeepsIsWhatAWholeRunHas) {
+  Study study = study_of(R"({"plant": {"m1": {"uniform": [0.8, 1.2]}}, "horizon": 30, "sampling": {"trials": 1}})");
+  study.integrator.method = GetParam();
+  study.sampling.trials = 10 * block_size(study);
+  RunOptions options;
+  options.threads = 2;
+  const StudyResult whole = run_study(study, options);
+  std::stop_source stop;
+  options.stop = stop.get_token();
+  options.make_runner = [&](const IntegratorChoice& integrator) {
+    return std::make_unique<StoppingRunner>(make_runner(integrator), stop);
+  };
+  const StudyResult stopped = run_study(study, options);
+  const std::uint64_t kept = stopped.trials.outcomes.size();
+  EXPECT_FALSE(stopped.complete);
+  EXPECT_GT(kept, 0U);
+  EXPECT_EQ(kept % block_size(study), 0U);
+  for (std::uint64_t row = 0; row < kept; ++row) {
+    EXPECT_TRUE(same_bits(stopped.trials.outcomes[row], whole.trials.outcomes[row])) << "trial " << row;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, RunStudyOnAnEngine,
+                         testing::Values(IntegratorChoice::Method::lockstep, IntegratorChoice::Method::cvode),
+                         [](const auto& one) {
+                           return std::string(IntegratorChoice::method_names[static_cast<std::size_t>(one.param)]);
+                         });
 
 TEST(RunStudy, EveryTrialIsStoredAtItsIndexHoweverTrialsFinish) {
   for (const std::uint64_t trials : {1U, 15U, 16U, 17U, 500U}) {  // one block has 16 trials
