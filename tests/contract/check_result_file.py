@@ -1,0 +1,221 @@
+"""Opens result files with h5py alone and holds them against the interface's description.
+
+    check_result_file.py FILE.h5 [SUMMARY.json] ...
+
+The names, types and units below are written out by hand, not taken from the engine: this is the outside's view. A
+summary after a file is recomputed from that file's trials. Exits 1 naming the first thing wrong.
+"""
+
+import hashlib
+import json
+import re
+import subprocess
+import sys
+
+import h5py
+import numpy as np
+
+OUTCOMES = {"converged": 0, "timeout": 1, "singular": 2, "diverged": 3, "integrator_failed": 4}
+PHASES = {"align": 0, "drift": 1, "contraction": 2, "swing": 3}
+TRIALS = {
+    "index": ("<u8", "1"),
+    "cell": ("<u8", "1"),
+    "status": (OUTCOMES, "1"),
+    "settling_time": ("<f8", "s"),
+    "end_time": ("<f8", "s"),
+    "cycles": ("<u4", "1"),
+    "swings": ("<u4", "1"),
+    "alignments": ("<u4", "1"),
+    "passive_error": ("<f8", "rad, rad/s"),
+    "active_error": ("<f8", "m, m/s"),
+    "q1": ("<f8", "m"),
+    "q2": ("<f8", "rad"),
+    "q1_dot": ("<f8", "m/s"),
+    "q2_dot": ("<f8", "rad/s"),
+}
+TRAJECTORY = {
+    "t": ("<f8", "s"),
+    "q1": ("<f8", "m"),
+    "q2": ("<f8", "rad"),
+    "q1_dot": ("<f8", "m/s"),
+    "q2_dot": ("<f8", "rad/s"),
+    "a": ("<f8", "m/s^2"),
+    "tau": ("<f8", "N"),
+    "phase": (PHASES, "1"),
+}
+PARAMETER_UNITS = {
+    "plant.m1": "kg",
+    "plant.m2": "kg",
+    "plant.f2": "N m s/rad",
+    "initial_state.q1": "m",
+    "initial_state.q2": "rad",
+    "initial_state.q2_dot": "rad/s",
+    "controller.contraction.eta1": "1",
+}
+
+
+def equal(what, found, expected):
+    if found != expected:
+        sys.exit(f"{what}: {found!r}, where {expected!r} should be")
+
+
+def check_columns(group, expected, rows):
+    equal(f"datasets of {group.name}", set(group), set(expected))
+    for name, (kind, units) in expected.items():
+        dataset = group[name]
+        equal(f"shape of {dataset.name}", dataset.shape, (rows,))
+        equal(f"attributes of {dataset.name}", dict(dataset.attrs), {"units": units})
+        if isinstance(kind, dict):
+            equal(f"enumeration of {dataset.name}", h5py.check_enum_dtype(dataset.dtype), kind)
+            equal(f"type of {dataset.name}", dataset.dtype.str, "|u1")
+        else:
+            equal(f"type of {dataset.name}", dataset.dtype.str, kind)
+        if rows > 0:
+            equal(f"checksum of {dataset.name}", dataset.fletcher32, True)
+        dataset[:]  # every chunk's checksum
+
+
+def check_attributes(file):
+    attributes = dict(file.attrs)
+    names = "filetype format_version engine_version created spec spec_sha256 complete wall_s threads"
+    equal("attributes of the file", set(attributes), set(names.split()))
+    for name in ("filetype", "engine_version", "created", "spec", "spec_sha256"):
+        equal(f"type of {name}", type(attributes[name]), str)
+    equal("filetype", attributes["filetype"], "steerstat-study")
+    equal("format_version", attributes["format_version"], 1)
+    equal("type of complete", type(attributes["complete"]), np.bool_)
+    equal("engine_version", bool(re.fullmatch(r"\d+\.\d+\.\d+", attributes["engine_version"])), True)
+    equal("created", bool(re.fullmatch(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ", attributes["created"])), True)
+    equal("spec_sha256", attributes["spec_sha256"], hashlib.sha256(attributes["spec"].encode()).hexdigest())
+    equal("wall_s is not negative", attributes["wall_s"] >= 0, True)
+    return json.loads(attributes["spec"])
+
+
+def varying_inputs(spec):
+    """Dotted names of what a spec lets vary, and how many cells its sweeps make."""
+    names, cells = set(), 1
+
+    def visit(value, name):
+        nonlocal cells
+        if not isinstance(value, dict):
+            return
+        if "sweep" in value:
+            cells *= len(value["sweep"])
+        if set(value) & {"sweep", "uniform", "normal", "truncated_normal", "lognormal", "triangular", "discrete"}:
+            names.add(name)
+            return
+        for key, inner in value.items():
+            visit(inner, f"{name}.{key}")
+
+    for group in ("plant", "initial_state", "controller"):
+        visit(spec[group], group)
+    listed = spec["sampling"].get("trials")
+    if isinstance(listed, list):
+        names.update(listed[0])
+    return names, cells
+
+
+def check_trials(file, spec):
+    trials = file["trials"]
+    rows = len(trials["index"])
+    check_columns(trials, TRIALS, rows)
+    names, cells = varying_inputs(spec)
+    check_columns(file["parameters"], {name: ("<f8", PARAMETER_UNITS[name]) for name in names}, rows)
+    index = trials["index"][:]
+    equal("index rises", bool(np.all(np.diff(index.astype(np.int64)) > 0)), True)
+    equal("cells", bool(np.array_equal(trials["cell"][:], index % cells)), True)
+    converged = trials["status"][:] == OUTCOMES["converged"]
+    expected = np.where(converged, trials["end_time"][:], np.nan)
+    equal("settling times", np.array_equal(trials["settling_time"][:], expected, equal_nan=True), True)
+    if file.attrs["complete"]:
+        listed = spec["sampling"].get("trials", 1)
+        draws = len(listed) if isinstance(listed, list) else listed
+        equal("index of a complete file", index.tolist(), list(range(draws * cells)))
+
+
+def check_trajectories(file, spec):
+    for name, trajectory in file["trajectories"].items():
+        t = trajectory["t"][:]
+        check_columns(trajectory, TRAJECTORY, len(t))
+        equal(f"time of {trajectory.name} never falls", bool(np.all(np.diff(t) >= 0)), True)
+        row = np.searchsorted(file["trials/index"][:], int(name))
+        for column in ("q1", "q2", "q1_dot", "q2_dot"):
+            equal(f"end of {trajectory.name}/{column}", trajectory[column][-1], file["trials"][column][row])
+        equal(f"end of {trajectory.name}/t", t[-1], file["trials/end_time"][row])
+    retained = {int(name) for name in file["trajectories"]}
+    wanted = spec["retain"]["trajectories"]
+    failed = [int(i) for i in file["trials/index"][:][file["trials/status"][:] != 0]]
+    expected = set(file["trials/index"][: wanted["first"]].tolist()) | set(failed[: wanted["failed"]])
+    equal("retained trajectories", retained, expected)
+
+
+def check_seal(path):
+    content = open(path, "rb").read()
+    seal = b"steerstat-sha256:" + hashlib.sha256(content[:-82]).hexdigest().encode() + b"\n"
+    equal("seal", content[-82:], seal)
+
+
+def check_statistics(what, found, status, settling_time, cycles):
+    equal(f"{what}: outcomes", found["outcomes"], {name: int(np.sum(status == v)) for name, v in OUTCOMES.items()})
+    equal(f"{what}: completed", found["trials"]["completed"], len(status))
+    converged = status == 0
+    rate = found["success_rate"]
+    equal(f"{what}: estimate", rate["estimate"], float(np.mean(converged)) if len(status) else None)
+    if len(status):
+        equal(f"{what}: limits", rate["ci_low"] <= rate["estimate"] <= rate["ci_high"], True)
+    for key, sample in (("settling_time", settling_time[converged]), ("cycles", cycles[converged])):
+        expected = dict.fromkeys(("mean", "std", "min", "p05", "p50", "p95", "p99", "max"))
+        if len(sample):
+            expected.update(mean=np.mean(sample), min=np.min(sample), max=np.max(sample))
+            expected.update({f"p{p:02}": np.quantile(sample, p / 100) for p in (5, 50, 95, 99)})
+        if len(sample) > 1:
+            expected["std"] = np.std(sample, ddof=1)
+        for name, value in expected.items():
+            same = found[key][name] is None if value is None else np.isclose(found[key][name], value, rtol=1e-12, atol=0)
+            equal(f"{what}: {key} {name} {found[key][name]} against {value}", bool(same), True)
+
+
+def check_summary(file, spec, path):
+    summary = json.load(open(path))
+    trials = {name: file["trials"][name][:] for name in ("status", "settling_time", "cycles", "cell")}
+    equal("name", summary["study"]["name"], spec["name"])
+    equal("seed", summary["study"]["seed"], spec["sampling"].get("seed", 1))
+    equal("spec_sha256", summary["study"]["spec_sha256"], file.attrs["spec_sha256"])
+    equal("complete", summary["complete"], bool(file.attrs["complete"]))
+    equal("wall_s", summary["performance"]["wall_s"], file.attrs["wall_s"])
+    check_statistics("all", summary, trials["status"], trials["settling_time"], trials["cycles"])
+    for number, cell in enumerate(summary["cells"]):
+        rows = trials["cell"] == number
+        check_statistics(f"cell {number}", cell, *(trials[k][rows] for k in ("status", "settling_time", "cycles")))
+        for name, value in cell["sweep"].items():
+            equal(f"{name} in cell {number}", set(file["parameters"][name][rows].tolist()) <= {value}, True)
+    names, cells = varying_inputs(spec)
+    equal("number of cells", len(summary["cells"]), cells if cells > 1 or summary["cells"] else 0)
+
+
+def check(path, summary):
+    with h5py.File(path, "r") as file:
+        equal("groups of the file", set(file), {"trials", "parameters", "trajectories"})
+        spec = check_attributes(file)
+        check_trials(file, spec)
+        check_trajectories(file, spec)
+        if summary:
+            check_summary(file, spec, summary)
+    check_seal(path)
+    header = subprocess.run(["h5dump", "-H", path], capture_output=True, text=True, check=False)
+    equal(f"h5dump -H {path}", (header.returncode, header.stderr), (0, ""))
+    for name in TRIALS:
+        equal(f"{name} in h5dump", f'DATASET "{name}"' in header.stdout, True)
+
+
+def main(arguments):
+    files = [i for i, argument in enumerate(arguments) if argument.endswith(".h5")]
+    if not files:
+        sys.exit("no result file was given")
+    for i in files:
+        following = arguments[i + 1] if i + 1 < len(arguments) else ""
+        check(arguments[i], following if following.endswith(".json") else None)
+    print(f"{len(files)} result files are as described")
+
+
+main(sys.argv[1:])

@@ -1,0 +1,40 @@
+// Writes what the program cannot be made to write at will: results of interrupted runs, every outcome, no trial at all.
+//
+//   write_contract_samples DIRECTORY
+#include <filesystem>
+#include <fstream>
+
+#include "../store/sample_result.hpp"
+#include "report/summary.hpp"
+#include "store/result_file.hpp"
+
+namespace {
+
+using namespace steerstat;
+
+void write(const std::filesystem::path& directory, const char* name, const Study& study, const StudyResult& result) {
+  write_result(directory / (std::string(name) + ".h5"), study, result);
+  std::ofstream(directory / (std::string(name) + ".json")) << summary_json(summarise(study, result));
+}
+
+}  // namespace
+
+int main(int, char** arguments) {
+  const std::filesystem::path directory(arguments[1]);
+  std::filesystem::create_directories(directory);
+  const Study study = testing_store::sample_study(50);
+
+  StudyResult every_outcome = testing_store::made_up_result(study);
+  write(directory, "every_outcome", study, every_outcome);
+
+  StudyResult interrupted = every_outcome;
+  interrupted.complete = false;
+  interrupted.trials.index.erase(interrupted.trials.index.begin() + 20, interrupted.trials.index.begin() + 110);
+  interrupted.trials.outcomes.erase(interrupted.trials.outcomes.begin() + 20,
+                                    interrupted.trials.outcomes.begin() + 110);
+  write(directory, "interrupted", study, interrupted);
+
+  StudyResult nothing;
+  nothing.threads = 1;
+  write(directory, "nothing", study, nothing);
+}
