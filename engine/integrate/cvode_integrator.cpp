@@ -24,6 +24,7 @@ namespace {
 constexpr sunindextype state_size = 4;
 constexpr double guard_precision = 1e-10;  // [s] crossings closer than this are one
 constexpr double finest = 1e-15;           // relative error that doubles still tell apart
+constexpr long start_steps = 50;           // CVODE starts at order 1, with steps far shorter than those to come
 constexpr long most_steps = 10'000'000;    // in one phase; the pace of a step a microsecond makes more of them a hang
 
 /// An N_Vector of a state, and its end.
@@ -150,7 +151,6 @@ CvodeIntegrator::Solver::Solver(double tolerance)
   store({absolute, absolute, absolute, relative}, work.get());
   require(CVodeSVtolerances(memory, relative, work.get()) == CV_SUCCESS, "CVodeSVtolerances");
   require(CVodeSetNonlinearSolver(memory, nonlinear_solver.get()) == CV_SUCCESS, "CVodeSetNonlinearSolver");
-  require(CVodeSetMinStep(memory, least_step) == CV_SUCCESS, "CVodeSetMinStep");
   require(CVodeSetMaxHnilWarns(memory, -1) == CV_SUCCESS, "CVodeSetMaxHnilWarns");
   require(CVodeRootInit(memory, guard_count, root_functions) == CV_SUCCESS, "CVodeRootInit");
   require(CVodeSetRootDirection(memory, falling.data()) == CV_SUCCESS, "CVodeSetRootDirection");
@@ -246,6 +246,7 @@ Arrival CvodeIntegrator::Solver::advance(double t0, const State<double>& x0, dou
     if (crossing) return {t, interpolate(*crossing), Cause::guard};
     if (rooted) return {t, after.x, Cause::guard};
     if (ended) return {t, after.x, Cause::time};
+    if (now - before.t < least_step && steps >= start_steps) return {t, after.x, Cause::failure};
     before = after;
   }
   return {t0 + before.t, before.x, Cause::failure};

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/elementary.hpp"
 #include "core/errors.hpp"
 #include "integrate/cvode_integrator.hpp"
 #include "integrate/lockstep_integrator.hpp"
@@ -24,7 +25,8 @@ class PhaseSampler final : public StepObserver {
 
   void take(double t, const State<double>& x) {
     const double a = commanded_acceleration(loop_, phase_, t - start_, x);
-    const double tau = linearising_force(loop_.nominal, a, std::sin(x.q2), std::cos(x.q2), x.q2_dot);
+    const auto [s, c] = sincos(x.q2);
+    const double tau = linearising_force(loop_.nominal, a, s, c, x.q2_dot);
     samples_.push_back({t, x, a, tau, phase_.kind});
   }
 

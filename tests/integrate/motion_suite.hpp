@@ -43,6 +43,22 @@ TYPED_TEST_P(IntegratorMotion, CycleMovesTheFirstJointAlongItsPolynomial) {
   }
 }
 
+// A contraction right before the goal lasts microseconds, at accelerations to match.
+TYPED_TEST_P(IntegratorMotion, AVeryShortCycleIsNoFailure) {
+  const double period = 1.6e-5;
+  const double amplitude = 0.3;
+  const double fastest = 0.03 * amplitude / period;
+  for (const double fraction : {0.5, 1.0}) {
+    const double t_end = fraction * period;
+    const Arrival arrival =
+        this->advance(exact_loop(), cycle_phase(amplitude, period), 0.0, {0.0, 0.78, 0.0, 0.1}, t_end);
+    ASSERT_EQ(arrival.cause, Cause::time);
+    const auto [q1, q1_dot] = cycle_motion(amplitude, period, t_end);
+    EXPECT_NEAR(arrival.state.q1, q1, error_growth * 1e-9);
+    EXPECT_NEAR(arrival.state.q1_dot, q1_dot, error_growth * 1e-9 * fastest);
+  }
+}
+
 TYPED_TEST_P(IntegratorMotion, DriftOfAnExactPlantIsUniform) {
   const Arrival arrival =
       this->advance(exact_loop(), drift_phase(-Phase::unbounded, Phase::unbounded), 10.0, {0.2, -1.0, 0.03, 0.4}, 60.0);
@@ -142,8 +158,9 @@ TYPED_TEST_P(IntegratorMotion, TheBitsDependOnTheArgumentsAlone) {
 }
 
 REGISTER_TYPED_TEST_SUITE_P(IntegratorMotion, AlignIsADampedOscillator, CycleMovesTheFirstJointAlongItsPolynomial,
-                            DriftOfAnExactPlantIsUniform, AFreePlantKeepsItsEnergyAndItsMomentum,
-                            ADriftWithoutFrictionRunsBackToItsStart, TheErrorFallsWithTheTolerance,
-                            StepsTouchAndTheirDenseOutputFollowsTheMotion, TheBitsDependOnTheArgumentsAlone);
+                            AVeryShortCycleIsNoFailure, DriftOfAnExactPlantIsUniform,
+                            AFreePlantKeepsItsEnergyAndItsMomentum, ADriftWithoutFrictionRunsBackToItsStart,
+                            TheErrorFallsWithTheTolerance, StepsTouchAndTheirDenseOutputFollowsTheMotion,
+                            TheBitsDependOnTheArgumentsAlone);
 
 }  // namespace steerstat::testing
