@@ -18,9 +18,9 @@ inline constexpr std::array<std::string_view, 3> realignment_names{"never", "aft
 /// Parameters of the controller (CONTROLLER.md section 6); the defaults are its column "default".
 struct Controller {
   struct Alignment {
-    double kp{7.0};           ///< [1/s^2]
-    double kd{5.0};           ///< [1/s]
-    double tolerance{1e-3};   ///< bound on the active error, norm of m and m/s
+    double kp{7.0};          ///< [1/s^2]
+    double kd{5.0};          ///< [1/s]
+    double tolerance{1e-3};  ///< bound on the active error, norm of m and m/s
     friend bool operator==(const Alignment&, const Alignment&) = default;
   };
   struct Drift {

@@ -17,7 +17,9 @@ enum class PhaseKind : std::uint8_t {
 
 inline constexpr std::array<std::string_view, 4> phase_names{"align", "drift", "contraction", "swing"};
 
-constexpr std::string_view name_of(PhaseKind kind) { return phase_names[static_cast<std::size_t>(kind)]; }
+constexpr std::string_view name_of(PhaseKind kind) {
+  return phase_names[static_cast<std::size_t>(kind)];
+}
 
 /// One phase: which law sets a, and what ends it.
 ///
@@ -28,13 +30,13 @@ struct Phase {
   static constexpr double unbounded = std::numeric_limits<double>::infinity();
 
   PhaseKind kind{PhaseKind::align};
-  double duration{unbounded};          ///< [s] longest it lasts; a cycle's period T
-  double amplitude{0.0};               ///< [m] A of (11), cycles only
-  double active_tolerance{-1.0};       ///< align: guard active_error - this; negative: no such guard
-  double q2_low{-unbounded};           ///< [rad] drift: guard q2 - q2_low
-  double q2_high{unbounded};           ///< [rad] drift: guard q2_high - q2
-  double direction{1.0};               ///< +1 or -1: the sign of q2_dot that the speed guard watches
-  double speed_floor{-unbounded};      ///< [rad/s] drift: guard direction * q2_dot - speed_floor
+  double duration{unbounded};      ///< [s] longest it lasts; a cycle's period T
+  double amplitude{0.0};           ///< [m] A of (11), cycles only
+  double active_tolerance{-1.0};   ///< align: guard active_error - this; negative: no such guard
+  double q2_low{-unbounded};       ///< [rad] drift: guard q2 - q2_low
+  double q2_high{unbounded};       ///< [rad] drift: guard q2_high - q2
+  double direction{1.0};           ///< +1 or -1: the sign of q2_dot that the speed guard watches
+  double speed_floor{-unbounded};  ///< [rad/s] drift: guard direction * q2_dot - speed_floor
 
   friend bool operator==(const Phase&, const Phase&) = default;
 };

@@ -161,8 +161,8 @@ Decision run(const Phase& phase, Memory memory) {
 // sanitizers are not ready yet when the clone is chosen.)
 [[gnu::target_clones("default", "fma"), gnu::flatten]]
 #endif
-Decision decide(double t, const State<double>& x, const Memory& memory, const Controller& controller,
-                const Goal& goal) {
+Decision
+decide(double t, const State<double>& x, const Memory& memory, const Controller& controller, const Goal& goal) {
   const double active = active_error(x, goal);
   const bool aligned = active <= controller.alignment.tolerance;
   const bool late = t >= controller.horizon - time_slack;

@@ -38,7 +38,6 @@ inline constexpr std::uint32_t most_decisions = 10000;
 /// @param t       [s] since the trial's start
 /// @param x       measured state
 /// @param memory  what the decision before this one returned; `Memory{}` at the start
-Decision decide(double t, const State<double>& x, const Memory& memory, const Controller& controller,
-                const Goal& goal);
+Decision decide(double t, const State<double>& x, const Memory& memory, const Controller& controller, const Goal& goal);
 
 }  // namespace steerstat

@@ -24,9 +24,9 @@ inline constexpr double two_over_pi = 0x1.45f306dc9c883p-1;
 inline constexpr double half_pi_high = 0x1.921fb54442d18p+0;
 inline constexpr double half_pi_low = 0x1.1a62633145c07p-54;
 // Taylor coefficients, highest order first. On |r| <= pi/4 the first term left out is below 2^-58 of the result.
-inline constexpr double sine[] = {1.0 / 355687428096000.0, -1.0 / 1307674368000.0, 1.0 / 6227020800.0,
-                                  -1.0 / 39916800.0,       1.0 / 362880.0,         -1.0 / 5040.0,
-                                  1.0 / 120.0,             -1.0 / 6.0};
+inline constexpr double sine[] = {
+    1.0 / 355687428096000.0, -1.0 / 1307674368000.0, 1.0 / 6227020800.0, -1.0 / 39916800.0,
+    1.0 / 362880.0,          -1.0 / 5040.0,          1.0 / 120.0,        -1.0 / 6.0};
 inline constexpr double cosine[] = {1.0 / 20922789888000.0, -1.0 / 87178291200.0, 1.0 / 479001600.0, -1.0 / 3628800.0,
                                     1.0 / 40320.0,          -1.0 / 720.0,         1.0 / 24.0,        -1.0 / 2.0};
 inline constexpr double log2_e = 0x1.71547652b82fep+0;
@@ -57,7 +57,8 @@ inline SinCos<double> sincos(double x) {
   return {quadrant >= 2.0 ? -sine : sine, (quadrant == 1.0 || quadrant == 2.0) ? -cosine : cosine};
 }
 
-/// Natural logarithm of a finite x > 0; relative error below 4 * 2^-53 (absolute near x = 1). -infinity at 0, NaN below.
+/// Natural logarithm of a finite x > 0; relative error below 4 * 2^-53 (absolute near x = 1). -infinity at 0, NaN
+/// below.
 inline double natural_log(double x) {
   if (!(x > 0.0)) return x == 0.0 ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
   if (x == std::numeric_limits<double>::infinity()) return x;
@@ -87,7 +88,7 @@ inline double exponential(double x) {
   if (x < -745.2) return 0.0;
   const double n = std::nearbyint(x * elementary::log2_e);
   const double r = std::fma(-n, elementary::ln2_low, std::fma(-n, elementary::ln2_high, x));  // |r| < 0.35
-  double p = 1.0 / 87178291200.0;  // 1/14!
+  double p = 1.0 / 87178291200.0;                                                             // 1/14!
   double factorial = 87178291200.0;
   for (double k = 14.0; k >= 1.0; k -= 1.0) {
     factorial /= k;  // exact: every factorial up to 14! is a double

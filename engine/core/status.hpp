@@ -19,7 +19,9 @@ enum class Status : std::uint8_t {
 inline constexpr std::array<std::string_view, 5> status_names{"converged", "timeout", "singular", "diverged",
                                                               "integrator_failed"};
 
-constexpr std::string_view name_of(Status status) { return status_names[static_cast<std::size_t>(status)]; }
+constexpr std::string_view name_of(Status status) {
+  return status_names[static_cast<std::size_t>(status)];
+}
 
 /// @return the status called `name`, or nothing where there is none.
 constexpr std::optional<Status> status_named(std::string_view name) {

@@ -2,6 +2,8 @@
 
 namespace steerstat {
 
-std::string_view engine_version() { return STEERSTAT_VERSION; }
+std::string_view engine_version() {
+  return STEERSTAT_VERSION;
+}
 
 }  // namespace steerstat

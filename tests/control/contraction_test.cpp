@@ -15,7 +15,8 @@ namespace {
 constexpr PolynomialCommand command(cycle_coefficients);
 constexpr double pi = std::numbers::pi;
 
-/// Relative rounding error of the closed form at T in doubles: coefficients whose sizes add up to 340 cancel to -2 beta.
+/// Relative rounding error of the closed form at T in doubles: coefficients whose sizes add up to 340 cancel to -2
+/// beta.
 constexpr double closed_form_error = 340.0 / (2.0 * beta) * 0x1p-52;
 
 /// What the supervisor runs from an aligned state.
