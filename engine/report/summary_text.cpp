@@ -15,7 +15,7 @@ namespace {
 using Align = TextTable::Align;
 
 constexpr int bar_width = 40;
-constexpr std::size_t most_cells = 24;  // more are shortened to the best and the worst
+constexpr std::size_t most_cells = 30;  // more are shortened to the best and the worst
 constexpr std::size_t best_cells = 15;
 constexpr std::size_t worst_cells = 5;
 const char* const no_data = "–";

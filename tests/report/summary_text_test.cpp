@@ -80,14 +80,14 @@ TEST(SummaryText, HasNoSettlingTimesWhereNoTrialConverged) {
 }
 
 TEST(SummaryText, ListsAllOfAFewCellsInTheirOrder) {
-  const std::string text = summary_text(made_up_sweep(24), false);
-  EXPECT_THAT(text, HasSubstr("240 trials (10 in each of 24 cells)"));
+  const std::string text = summary_text(made_up_sweep(30), false);
+  EXPECT_THAT(text, HasSubstr("300 trials (10 in each of 30 cells)"));
   EXPECT_THAT(text, HasSubstr("\n   eta1  Success"));
   const std::vector<std::string> lines = lines_of(text);
   auto line = std::find_if(lines.begin(), lines.end(), [](const std::string& l) { return l.find("eta1") != l.npos; });
-  ASSERT_GT(lines.end() - line, 25);
+  ASSERT_GT(lines.end() - line, 31);
   line += 2;  // past the header and its rule
-  for (int cell = 0; cell < 24; ++cell, ++line) {
+  for (int cell = 0; cell < 30; ++cell, ++line) {
     double value = -1.0;
     double success = -1.0;
     std::istringstream(*line) >> value >> success;
@@ -99,8 +99,8 @@ TEST(SummaryText, ListsAllOfAFewCellsInTheirOrder) {
 }
 
 TEST(SummaryText, ShortensManyCellsToTheBestAndTheWorstAndSaysWhereTheRestIs) {
-  const std::string text = summary_text(made_up_sweep(25), false);
-  EXPECT_THAT(text, HasSubstr("The 15 best and 5 worst of 25 cells by success rate; the JSON summary has them all."));
+  const std::string text = summary_text(made_up_sweep(31), false);
+  EXPECT_THAT(text, HasSubstr("The 15 best and 5 worst of 31 cells by success rate; the JSON summary has them all."));
   const std::vector<std::string> lines = lines_of(text);
   const auto gap =
       std::find_if(lines.begin(), lines.end(), [](const std::string& line) { return line.find("⋮") != line.npos; });
