@@ -101,7 +101,7 @@ std::optional<std::vector<double>> list(const Reader& reader, const Range& range
   if (!reader.require_array("an array of numbers")) return std::nullopt;
   const std::size_t size = reader.value().size();
   if (size == 0 || size > most_discrete_values) {
-    reader.fail(fmt::format("{} elements (1 to {})", size, most_discrete_values));
+    reader.fail(fmt::format("{} elements (1 to {}); list as many values as weights", size, most_discrete_values));
     return std::nullopt;
   }
   std::vector<double> values;
@@ -117,7 +117,8 @@ bool require_total(const Reader& reader, const std::vector<double>& weights) {
   double total = 0.0;
   for (const double weight : weights) total += weight;
   if (total > 0.0 && std::isfinite(total)) return true;
-  reader.fail(fmt::format("the weights' sum is {} (> 0 and finite); give some value a weight", total));
+  reader.fail(fmt::format("the weights' sum is {} (> 0 and finite); {}", total,
+                          total > 0.0 ? "scale them down" : "give some value a weight"));
   return false;
 }
 

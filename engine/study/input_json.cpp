@@ -129,10 +129,9 @@ std::optional<InputValue> decode_object(const InputDefinition& definition, std::
     return std::nullopt;
   }
   const bool sweeps = !kinds.empty() && kinds.front() == "sweep";
-  std::vector<std::string_view> allowed = known;
-  if (!sweeps) allowed.emplace_back("relative");
+  static constexpr std::array<std::string_view, 1> relative{"relative"};
   const std::size_t mistakes = reader.errors().size();
-  reader.refuse_unknown_keys(allowed);
+  reader.refuse_unknown_keys(known, relative);
   if (kinds.empty()) {
     if (reader.errors().size() == mistakes) {
       reader.fail(
@@ -140,7 +139,12 @@ std::optional<InputValue> decode_object(const InputDefinition& definition, std::
     }
     return std::nullopt;
   }
-  if (sweeps) return decode_sweep(definition, *reader.find("sweep"));
+  if (sweeps) {
+    if (const auto flag = reader.find("relative")) {
+      flag->fail("a sweep is not relative (only distributions are); sweep absolute values, and remove this");
+    }
+    return decode_sweep(definition, *reader.find("sweep"));
+  }
   return decode_distribution(definition, nominal, kinds.front(), reader);
 }
 

@@ -3,24 +3,34 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
 namespace steerstat {
 namespace {
 
+void replace(std::string& text, std::string_view old, std::string_view by) {
+  if (const std::size_t at = text.find(old); at != std::string::npos) text.replace(at, old.size(), by);
+}
+
 // What nlohmann::json reports, without its prefix, position and the token it stopped in (which may hold any bytes):
-// "[json.exception...] ... column 5: <this>; last read: '...'; <and this>".
+// "[json.exception...] ... column 5: syntax error <this>; last read: '...'; <and this>".
 std::string reason_of(std::string what) {
   const std::size_t column = what.find("column ");
   const std::size_t colon = column == std::string::npos ? std::string::npos : what.find(": ", column);
   if (colon != std::string::npos) what.erase(0, colon + 2);
-  const std::size_t token = what.find("; last read: ");
-  if (token == std::string::npos) return what;
-  const std::size_t expected = what.rfind("; expected ");
-  const bool follows = expected != std::string::npos && expected > token;
-  return what.erase(token, follows ? expected - token : std::string::npos);
+  if (const std::size_t token = what.find("; last read: "); token != std::string::npos) {
+    const std::size_t expected = what.rfind("; expected ");
+    const bool follows = expected != std::string::npos && expected > token;
+    what.erase(token, follows ? expected - token : std::string::npos);
+  }
+  replace(what, "syntax error ", "");
+  replace(what, "; expected '}'", "; expected ',' or '}'");  // a missing comma is the likelier slip
+  replace(what, "; expected ']'", "; expected ',' or ']'");
+  return what;
 }
 
 // Whether the word at byte `position` (counted from 1) looks like somebody's NaN or infinity.
@@ -155,38 +165,57 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
   std::optional<SpecError> failure_;
 };
 
-// The path of a pointer as positions among siblings; a place that does not exist comes after those that do.
-std::vector<std::size_t> place_in(const Json& document, std::string_view pointer) {
-  std::vector<std::size_t> place;
-  const Json* value = &document;
-  while (!pointer.empty()) {
-    const std::size_t end = std::min(pointer.find('/', 1), pointer.size());
-    const std::string_view token = pointer.substr(1, end - 1);
-    pointer.remove_prefix(end);
-    if (value == nullptr || !value->is_structured()) break;
-    std::size_t position = 0;
-    const Json* found = nullptr;
-    if (value->is_array()) {
-      for (const char c : token) position = position * 10 + static_cast<std::size_t>(c - '0');
-      found = position < value->size() ? &(*value)[position] : nullptr;
-    } else {
-      for (const auto& member : value->get_ref<const Json::object_t&>()) {
-        if (pointer_token(member.first) == token) {
-          found = &member.second;
-          break;
-        }
-        ++position;
+// Finds where in a document a pointer points. Remembers the keys of every object it passes: a wide object with many
+// mistakes would take quadratic time.
+class Places {
+ public:
+  explicit Places(const Json& document) : document_(document) {}
+
+  // The path as positions among siblings; a place that does not exist comes after those that do.
+  std::vector<std::size_t> place_of(std::string_view pointer) {
+    std::vector<std::size_t> place;
+    const Json* value = &document_;
+    while (!pointer.empty() && value != nullptr && value->is_structured()) {
+      const std::size_t end = std::min(pointer.find('/', 1), pointer.size());
+      const std::string token(pointer.substr(1, end - 1));
+      pointer.remove_prefix(end);
+      place.push_back(value->is_array() ? std::stoul(token) : position_of(token, *value));
+      value = place.back() < value->size() ? child(*value, place.back()) : nullptr;
+    }
+    return place;
+  }
+
+ private:
+  static const Json* child(const Json& value, std::size_t position) {
+    return value.is_array() ? &value[position]
+                            : &std::next(value.cbegin(), static_cast<std::ptrdiff_t>(position)).value();
+  }
+
+  std::size_t position_of(const std::string& token, const Json& object) {
+    auto [known, is_new] = keys_.try_emplace(&object);
+    auto& positions = known->second;
+    if (is_new) {
+      std::size_t position = 0;
+      for (const auto& member : object.get_ref<const Json::object_t&>()) {
+        positions.emplace(pointer_token(member.first), position++);
       }
     }
-    place.push_back(position);
-    value = found;
+    const auto found = positions.find(token);
+    return found == positions.end() ? object.size() : found->second;
   }
-  return place;
-}
+
+  const Json& document_;
+  std::unordered_map<const Json*, std::unordered_map<std::string, std::size_t>> keys_;
+};
 
 }  // namespace
 
 Json parse_json(std::string_view text, std::vector<SpecError>& duplicates) {
+  // nlohmann::json would take it for the end of the text and not see what follows.
+  if (const std::size_t nul = text.find('\0'); nul != std::string_view::npos) {
+    throw BadSpec(
+        {{"", fmt::format("malformed JSON at {}: a NUL byte; save the file as UTF-8 text", place_of(text, nul + 1))}});
+  }
   DocumentBuilder builder(text, duplicates);
   if (!Json::sax_parse(text.begin(), text.end(), &builder)) {
     throw BadSpec({builder.failure().value_or(SpecError{"", "malformed JSON"})});
@@ -197,8 +226,9 @@ Json parse_json(std::string_view text, std::vector<SpecError>& duplicates) {
 void sort_by_place(std::vector<SpecError>& errors, const Json& document) {
   std::vector<std::pair<std::vector<std::size_t>, SpecError>> placed;
   placed.reserve(errors.size());
+  Places places(document);
   for (SpecError& error : errors) {
-    auto place = place_in(document, error.pointer);
+    auto place = places.place_of(error.pointer);
     placed.emplace_back(std::move(place), std::move(error));
   }
   std::stable_sort(placed.begin(), placed.end(), [](const auto& a, const auto& b) { return a.first < b.first; });

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "study/limits.hpp"
 #include "study/nearest.hpp"
 
 namespace steerstat {
@@ -111,12 +112,14 @@ void Reader::refuse_unknown_keys(std::span<const std::string_view> known,
   const auto has = [](std::span<const std::string_view> words, std::string_view word) {
     return std::find(words.begin(), words.end(), word) != words.end();
   };
+  std::size_t unknown = 0;
   for (const auto& member : value_->get_ref<const Json::object_t&>()) {
-    if (!has(known, member.first) && !has(spoken_for, member.first)) {
+    if (!has(known, member.first) && !has(spoken_for, member.first) && ++unknown <= most_errors) {
       Reader(member.second, pointer_ + '/' + pointer_token(member.first), *errors_)
           .refuse_unknown_key(member.first, known);
     }
   }
+  if (unknown > most_errors) fail(fmt::format("{} unknown keys; correct the first ones", unknown));
 }
 
 void Reader::refuse_unknown_key(std::string_view key, std::span<const std::string_view> known) const {
@@ -126,7 +129,9 @@ void Reader::refuse_unknown_key(std::string_view key, std::span<const std::strin
   } else if (const auto place = place_called(key)) {
     advice = fmt::format("it belongs at {}", *place);
   }
-  fail(fmt::format("unknown key {} (known here: {}); {}", quote(key), listed(known), advice));
+  static constexpr std::size_t most_listed = 12;
+  const std::string rule = known.size() <= most_listed ? fmt::format(" (known here: {})", listed(known)) : "";
+  fail(fmt::format("unknown key {}{}; {}", quote(key), rule, advice));
 }
 
 std::optional<double> Reader::number() const {

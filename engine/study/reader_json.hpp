@@ -44,7 +44,8 @@ class Reader {
   /// Element `index` of this array.
   [[nodiscard]] Reader element(std::size_t index) const;
 
-  /// Notes a mistake for every key of this object that is not in `known`, with the one most likely meant.
+  /// Notes a mistake for every key of this object that is not in `known`, with the one most likely meant; where
+  /// there are more than a spec's report holds, for the first ones and for all together.
   /// @param spoken_for  keys that somebody else deals with
   void refuse_unknown_keys(std::span<const std::string_view> known,
                            std::span<const std::string_view> spoken_for = {}) const;

@@ -40,23 +40,23 @@ class Rules {
     if (is_mistaken("sampling") && study_.sampling.method == SamplingMethod::explicit_trials) return;
     const auto align_column = column_of(align);
     const auto active_column = column_of(active);
-    const auto refuse = [&](std::string pointer, double low, double high) {
-      errors_.push_back({std::move(pointer), fmt::format("the active error would have to be within {}, but alignment "
+    const auto refuse = [&](std::string pointer, std::string_view where, double low, double high) {
+      errors_.push_back({std::move(pointer), fmt::format("{}the active error would have to be within {}, but alignment "
                                                          "stops at {} (convergence.active_tolerance >= "
                                                          "alignment.tolerance in every trial); raise the former or "
                                                          "lower the latter",
-                                                         low, high)});
+                                                         where, low, high)});
     };
     if (!align_column && !active_column) {
       const double high = values_of(align).high;
       const double low = values_of(active).low;
-      if (low < high) refuse(pointer_to(active), low, high);
+      if (low < high) refuse(pointer_to(active), "", low, high);
       return;
     }
     for (std::size_t row = 0; row < study_.sampling.trials; ++row) {
       const double high = align_column ? listed(row, *align_column) : values_of(align).high;
       const double low = active_column ? listed(row, *active_column) : values_of(active).low;
-      if (low < high) refuse(fmt::format("/sampling/trials/{}", row), low, high);
+      if (low < high) refuse("/sampling", fmt::format("in trial {} ", row), low, high);
     }
   }
 

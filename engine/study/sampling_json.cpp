@@ -76,7 +76,8 @@ void decode_rows(const Reader& reader, Sampling& sampling) {
   if (!reader.require_array("an array of trials (method \"explicit\")")) return;
   const std::size_t size = reader.value().size();
   if (size == 0 || size > most_explicit_trials) {
-    reader.fail(fmt::format("{} trials (1 to {})", size, most_explicit_trials));
+    reader.fail(fmt::format("{} trials (1 to {}); {}", size, most_explicit_trials,
+                            size == 0 ? "list at least one" : "split the study"));
     return;
   }
   const std::size_t mistakes = reader.errors().size();

@@ -56,7 +56,7 @@ class Decoder {
     }
     if (const auto goal = root_.find("goal")) decode_goal(*goal);
     if (const auto horizon = root_.find("horizon")) {
-      study_.horizon = horizon->number_in(positive, "horizon").value_or(study_.horizon);
+      study_.horizon = decode_fixed(*horizon, positive, "horizon", "write a spec for each").value_or(study_.horizon);
     }
     if (const auto integrator = root_.find("integrator")) decode_integrator(*integrator);
     if (const auto sampling = root_.find("sampling")) {
@@ -192,7 +192,7 @@ class Decoder {
       const auto [s, c] = sincos(value.value_or(q2));
       if (std::abs(2.0 * s * c) < least_goal_sine) {
         member->fail(
-            fmt::format("sin 2 q2 is {:.2g} at {} (at least {} in size: near a multiple of pi/2 no contraction "
+            fmt::format("sin 2 q2 is {:.4g} at {} (at least {} in size: near a multiple of pi/2 no contraction "
                         "is possible); choose another angle, such as pi/4 = 0.7853981633974483",
                         2.0 * s * c, *value, least_goal_sine));
       } else {
