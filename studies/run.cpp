@@ -4,6 +4,9 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "commands.hpp"
 #include "core/errors.hpp"
@@ -32,34 +35,39 @@ Examples:
 
 struct Request {
   std::string spec;
-  std::string result;   ///< "": not kept
-  std::string summary;  ///< "": not written; "-": standard output, in the table's place
+  std::optional<std::string> result;   ///< without it the trials are not kept
+  std::optional<std::string> summary;  ///< "-": standard output, in the table's place
   unsigned threads{0};
   bool no_progress{false};
+
+  [[nodiscard]] bool prints_json() const { return summary == "-"; }
+  [[nodiscard]] bool writes_summary() const { return summary && !prints_json(); }
 };
 
 bool same_file(const std::string& a, const std::string& b) {
-  std::error_code no_such_file;
-  return std::filesystem::weakly_canonical(a, no_such_file) == std::filesystem::weakly_canonical(b, no_such_file);
+  std::error_code error;
+  const std::filesystem::path first = std::filesystem::weakly_canonical(a, error);
+  return !error && first == std::filesystem::weakly_canonical(b, error) && !error;
 }
 
 /// Refuses outputs that would overwrite the spec or each other, and those that cannot be written, before any trial
 /// runs.
 void check_outputs(const Request& request) {
-  const bool summary_is_file = !request.summary.empty() && request.summary != "-";
   if (request.result == "-") {
     throw BadUsage("-o: a result file cannot go to standard output (HDF5 is not a stream); name a file");
   }
-  for (const std::string& output : {request.result, summary_is_file ? request.summary : ""}) {
-    if (!output.empty() && request.spec != "-" && same_file(output, request.spec)) {
+  std::vector<std::string> outputs;
+  if (request.result) outputs.push_back(*request.result);
+  if (request.writes_summary()) outputs.push_back(*request.summary);
+  for (const std::string& output : outputs) {
+    if (request.spec != "-" && same_file(output, request.spec)) {
       throw BadUsage(fmt::format("{} is the spec itself and would be overwritten; name another output", output));
     }
   }
-  if (summary_is_file && !request.result.empty() && same_file(request.result, request.summary)) {
-    throw BadUsage(fmt::format("-o and --summary both name {}; give each its own file", request.result));
+  if (outputs.size() == 2 && same_file(outputs.front(), outputs.back())) {
+    throw BadUsage(fmt::format("-o and --summary both name {}; give each its own file", outputs.front()));
   }
-  if (!request.result.empty()) require_writable(request.result);
-  if (summary_is_file) require_writable(request.summary);
+  for (const std::string& output : outputs) require_writable(output);
 }
 
 StudyResult run_trials(const Study& study, const Request& request, const Interruption& interruption) {
@@ -88,14 +96,14 @@ bool attempt(const Action& action) {
 /// @return whether all of it was written
 bool write_outputs(const Request& request, const Study& study, const StudyResult& result) {
   const Summary summary = summarise(study, result);
-  const bool summary_is_file = !request.summary.empty() && request.summary != "-";
-  const bool kept = request.result.empty() || attempt([&] { write_result(request.result, study, result); });
-  const bool summarised = !summary_is_file || attempt([&] { write_text(request.summary, summary_json(summary)); });
+  const bool kept = !request.result || attempt([&] { write_result(*request.result, study, result); });
+  const bool summarised =
+      !request.writes_summary() || attempt([&] { write_text(*request.summary, summary_json(summary)); });
   const bool printed = attempt([&] {
-    print(request.summary == "-" ? summary_json(summary) : summary_text(summary, wants_colour(StandardStream::output)));
+    print(request.prints_json() ? summary_json(summary) : summary_text(summary, wants_colour(StandardStream::output)));
   });
-  if (kept && !request.result.empty()) tell(fmt::format("wrote the trials to {}", request.result));
-  if (summarised && summary_is_file) tell(fmt::format("wrote the summary to {}", request.summary));
+  if (kept && request.result) tell(fmt::format("wrote the trials to {}", *request.result));
+  if (summarised && request.writes_summary()) tell(fmt::format("wrote the summary to {}", *request.summary));
   return kept && summarised && printed;
 }
 
@@ -107,8 +115,7 @@ ExitCode run(const Request& request) {
   const bool written = write_outputs(request, study, result);
   if (!result.complete) {
     tell(fmt::format("interrupted after {} of {} trials{}", readable_count(result.trials.index.size()),
-                     readable_count(Plan(study).trials()),
-                     request.result.empty() ? "; without -o they are not kept" : ""));
+                     readable_count(Plan(study).trials()), request.result ? "" : "; without -o they are not kept"));
   }
   if (!written) return ExitCode::run_failed;
   return result.complete ? ExitCode::done : ExitCode::interrupted;

@@ -155,6 +155,17 @@ TEST(BadInput, AnOutputThatCannotBeWrittenIsFoundBeforeTheFirstTrial) {
   }
 }
 
+TEST(BadInput, AnOutputWithoutANameIsNotTakenForNoOutput) {
+  const Scratch scratch;
+  const std::string spec = scratch.file("spec.json", R"({"horizon": 1})");
+  for (const char* option : {"-o", "--summary"}) {
+    const Ending ending = steerstat({"run", spec, option, ""});
+    EXPECT_EQ(ending.exit_code, 4);
+    EXPECT_EQ(ending.out, "");
+    EXPECT_THAT(ending.err, HasSubstr("without a name"));
+  }
+}
+
 TEST(BadInput, AFileThatIsNoResultExitsWithFour) {
   const Scratch scratch;
   const std::string text = scratch.file("text.h5", "not HDF5 at all");
