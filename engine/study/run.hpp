@@ -51,9 +51,9 @@ struct StudyResult {
   unsigned threads{0};  ///< workers that shared the trials: as asked, but never more than there were blocks
 };
 
-/// Trials a worker claims at a time: few where trials are slow (CVODE, milliseconds each), so that a stop is quick and
-/// the last blocks end together; more where a block feeds many lanes. Depends on the study alone, so that what a
-/// stopped run keeps can be compared between machines.
+/// Trials a worker claims at a time: several times what the lanes of lockstep hold, which refill across blocks; few with
+/// CVODE, whose trials take milliseconds, so that a stop is quick and the last blocks end together. Depends on the study
+/// alone, so that what a stopped run keeps can be compared between machines.
 std::uint64_t block_size(const Study& study);
 
 /// Runs a study on TBB. The outcomes are the same bits whatever the number of threads. Safe to call from several

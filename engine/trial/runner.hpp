@@ -15,7 +15,7 @@ struct IntegratorChoice {
   enum class Method : std::uint8_t { lockstep = 0, cvode = 1 };
   static constexpr std::array<std::string_view, 2> method_names{"lockstep", "cvode"};
 
-  Method method{Method::cvode};
+  Method method{Method::lockstep};
   double tolerance{1e-9};  ///< local error per step, relative to max(1, |state|)
 
   friend bool operator==(const IntegratorChoice&, const IntegratorChoice&) = default;

@@ -41,7 +41,7 @@ const char* const canonical_empty_spec =
     R"("swing":{"max_amplitude":200,"min_authority":0.4,"period":2,"speed":0.2}},)"
     R"("goal":{"q1":0,"q2":0.7853981633974483},"horizon":300,)"
     R"("initial_state":{"q1":1,"q1_dot":0,"q2":-0.7853981633974483,"q2_dot":0},)"
-    R"("integrator":{"method":"cvode","tolerance":1e-09},"name":"study",)"
+    R"("integrator":{"method":"lockstep","tolerance":1e-09},"name":"study",)"
     R"("nominal":{"I2":1,"d2":0.5,"f1":0,"f2":0,"m1":1,"m2":1},"plant":{"I2":1,"d2":0.5,"f1":0,"f2":0,"m1":1,"m2":1},)"
     R"("retain":{"trajectories":{"failed":0,"first":0}},"sampling":{"method":"monte_carlo","seed":1,"trials":1}})";
 
