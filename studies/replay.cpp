@@ -42,8 +42,9 @@ std::size_t row_of(const std::string& text, const StoredStudy& stored, const std
   const auto found = std::lower_bound(indices.begin(), indices.end(), index);
   const bool number = error == std::errc() && end == text.data() + text.size();
   if (!number || found == indices.end() || *found != index) {
-    throw BadUsage(fmt::format("--trial: there is no trial {} in {}; it holds trials {} to {}", text, file,
-                               indices.front(), indices.back()));
+    const std::string those = indices.size() == 1 ? fmt::format("trial {} alone", indices.front())
+                                                  : fmt::format("trials {} to {}", indices.front(), indices.back());
+    throw BadUsage(fmt::format("--trial: there is no trial {} in {}; it holds {}", text, file, those));
   }
   return static_cast<std::size_t>(found - indices.begin());
 }
