@@ -1,5 +1,8 @@
 #include "report/summary.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/version.hpp"
 #include "study/plan.hpp"
 #include "study/spec_json.hpp"
@@ -46,6 +49,30 @@ std::vector<Summary::Cell> summarise_cells(const Plan& plan, const TrialTable& t
   return cells;
 }
 
+std::optional<AuditStatistics> summarise_audit(const Audit& audit, const TrialTable& trials) {
+  if (audit.trials.empty()) return std::nullopt;
+  AuditStatistics result;
+  result.trials = audit.trials.size();
+  result.tolerance = audit.tolerance;
+  std::vector<double> differences;
+  for (const AuditedTrial& trial : audit.trials) {
+    const auto found = std::lower_bound(trials.index.begin(), trials.index.end(), trial.index);
+    const TrialOutcome& outcome = trials.outcomes[static_cast<std::size_t>(found - trials.index.begin())];
+    if (!agree(trial, outcome)) {
+      result.disagree.push_back(trial.index);
+      continue;
+    }
+    ++result.agree;
+    if (outcome.status == Status::converged) {
+      differences.push_back(std::abs(trial.settling_time - outcome.settling_time()));
+    }
+  }
+  if (const std::optional<SampleStatistics> sample = describe(differences)) {
+    result.settling_time_difference = {sample->p50, sample->p99, sample->max};
+  }
+  return result;
+}
+
 }  // namespace
 
 Summary summarise(const Study& study, const StudyResult& result) {
@@ -62,8 +89,10 @@ Summary summarise(const Study& study, const StudyResult& result) {
   summary.requested = plan.trials();
   summary.all = all.statistics();
   summary.cells = summarise_cells(plan, result.trials);
+  summary.audit = summarise_audit(result.audit, result.trials);
   summary.wall_s = result.wall_s;
   summary.threads = result.threads;
+  summary.simd = result.simd;
   return summary;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/instruction_set.hpp"
 #include "core/status.hpp"
 #include "statistics/proportion.hpp"
 #include "statistics/sample.hpp"
@@ -26,6 +27,18 @@ struct TrialStatistics {
   std::optional<SampleStatistics> cycles;                     ///< converged trials
 };
 
+/// How far the reference integrator bears a run out.
+struct AuditStatistics {
+  std::uint64_t trials{0};              ///< computed again, > 0
+  std::uint64_t agree{0};               ///< of them: the same status, cycles and swings
+  std::vector<std::uint64_t> disagree;  ///< indices of the others
+  struct Difference {
+    double median, p99, max;
+  };
+  std::optional<Difference> settling_time_difference;  ///< [s] absolute, of the converged trials that agree
+  double tolerance{0.0};                               ///< of the reference integrator
+};
+
 /// A study's statistics: INTERFACE's summary object.
 struct Summary {
   std::string id, name, spec_sha256, engine_version;
@@ -37,9 +50,11 @@ struct Summary {
     std::vector<Plan::SweptValue> sweep;
     TrialStatistics statistics;
   };
-  std::vector<Cell> cells;  ///< one a cell where there are sweeps
+  std::vector<Cell> cells;               ///< one a cell where there are sweeps
+  std::optional<AuditStatistics> audit;  ///< nothing where no trial was audited
   double wall_s{0.0};
   unsigned threads{0};
+  std::optional<InstructionSet> simd;  ///< what lockstep ran on
 };
 
 /// Summarises finished trials. The same trials give the same bits, in whatever order and on however many threads they

@@ -53,8 +53,21 @@ Json cells_json(const Summary& summary) {
   return cells;
 }
 
+Json audit_json(const std::optional<AuditStatistics>& audit) {
+  if (!audit) return nullptr;
+  Json json = {{"trials", audit->trials}, {"agree", audit->agree}, {"disagree", audit->disagree}};
+  json["settling_time_difference"] = nullptr;
+  if (const auto& difference = audit->settling_time_difference) {
+    json["settling_time_difference"] = {
+        {"median", difference->median}, {"p99", difference->p99}, {"max", difference->max}};
+  }
+  json["tolerance"] = audit->tolerance;
+  return json;
+}
+
 Json performance_json(const Summary& summary) {
   Json json = {{"wall_s", summary.wall_s}, {"trials_per_s", nullptr}, {"threads", summary.threads}};
+  json["simd"] = summary.simd ? Json(name_of(*summary.simd)) : Json(nullptr);
   if (summary.all.completed > 0 && summary.wall_s > 0.0) {
     json["trials_per_s"] = static_cast<double>(summary.all.completed) / summary.wall_s;
   }
@@ -74,7 +87,7 @@ std::string summary_json(const Summary& summary) {
   append_statistics(json, summary.requested, summary.all);
   json["cells"] = cells_json(summary);
   json["gates"] = Json::array();
-  json["audit"] = nullptr;
+  json["audit"] = audit_json(summary.audit);
   json["performance"] = performance_json(summary);
   // A name is the user's: were it not UTF-8, it must not cost the summary.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

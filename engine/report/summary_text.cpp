@@ -205,11 +205,37 @@ std::string cells_text(const std::vector<Summary::Cell>& cells, bool colour) {
                 faint, colour);
 }
 
+/// Some indices in words: "3, 14 and 2 more".
+std::string indices_text(const std::vector<std::uint64_t>& indices) {
+  constexpr std::size_t most_indices = 5;
+  const std::size_t shown = std::min(indices.size(), most_indices);
+  std::string text = fmt::format("{}", fmt::join(indices.begin(), indices.begin() + static_cast<long>(shown), ", "));
+  if (shown < indices.size()) text += fmt::format(" and {} more", readable_count(indices.size() - shown));
+  return text;
+}
+
+std::string audit_text(const AuditStatistics& audit, bool colour) {
+  const bool all = audit.agree == audit.trials;
+  std::string text = fmt::format("  {}  {} with SUNDIALS at tolerance {:.3g} in status, cycles and swings\n",
+                                 styled("Audit", bold, colour),
+                                 styled(fmt::format("{} of {} agree{}", readable_count(audit.agree),
+                                                    plural(audit.trials, "trial"), audit.trials == 1 ? "s" : ""),
+                                        fg(all ? fmt::terminal_color::green : fmt::terminal_color::red), colour),
+                                 audit.tolerance);
+  if (!all) text += fmt::format("         Not trial {}.\n", indices_text(audit.disagree));
+  if (const auto& difference = audit.settling_time_difference) {
+    text += fmt::format("         Settling times differ by {:.1e} s in the median, {:.1e} s at most.\n",
+                        difference->median, difference->max);
+  }
+  return text;
+}
+
 std::string performance_text(const Summary& summary, bool colour) {
   if (summary.all.completed == 0 || !(summary.wall_s > 0.0)) return {};
   const double rate = static_cast<double>(summary.all.completed) / summary.wall_s;
-  return styled(fmt::format("{} in {} on {}: {} trials/s", plural(summary.all.completed, "trial"),
-                            readable_duration(summary.wall_s), plural(summary.threads, "thread"), readable_rate(rate)),
+  return styled(fmt::format("{} in {} on {}{}: {} trials/s", plural(summary.all.completed, "trial"),
+                            readable_duration(summary.wall_s), plural(summary.threads, "thread"),
+                            summary.simd ? fmt::format(" with {}", name_of(*summary.simd)) : "", readable_rate(rate)),
                 faint, colour) +
          '\n';
 }
@@ -226,6 +252,7 @@ std::string summary_text(const Summary& summary, bool colour) {
     if (summary.all.settling_time) text += '\n' + sample_text(summary.all, colour);
     if (!summary.cells.empty()) text += '\n' + cells_text(summary.cells, colour);
   }
+  if (summary.audit) text += '\n' + audit_text(*summary.audit, colour);
   return text + '\n' + performance_text(summary, colour);
 }
 

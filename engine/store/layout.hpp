@@ -13,6 +13,9 @@ namespace steerstat::layout {
 inline constexpr std::string_view filetype = "steerstat-study";
 inline constexpr std::uint32_t format_version = 1;
 
+/// The attribute `simd` of a run that used no instruction set of lockstep's.
+inline constexpr std::string_view no_simd = "none";
+
 /// A dataset of /trials that holds one number of the trial's outcome as it is.
 template <class Number>
 struct OutcomeColumn {

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 #include <functional>
+#include <optional>
+#include <string_view>
 
 #include "core/errors.hpp"
 #include "store/attribute.hpp"
@@ -73,20 +75,24 @@ std::vector<std::uint64_t> read_index(hid_t trials, const Plan& plan) {
   return index;
 }
 
-void read_statuses(hid_t trials, std::vector<TrialOutcome>& outcomes) {
+/// @param place  the group's name, for messages
+std::vector<Status> read_statuses(hid_t group, std::string_view place, std::size_t rows) {
   const hdf5::Handle type = hdf5::enumeration(status_names);
-  const hdf5::Column column(trials, "status", {type.id(), type.id()}, "1");
-  if (column.rows() != outcomes.size()) {
-    throw Problem(fmt::format("status has {} rows, /trials/index {}", column.rows(), outcomes.size()));
+  const hdf5::Column column(group, "status", {type.id(), type.id()}, "1");
+  if (column.rows() != rows) {
+    throw Problem(fmt::format("status has {} rows, {}/index {}", column.rows(), place, rows));
   }
-  std::vector<std::uint8_t> values(column.rows());
+  std::vector<std::uint8_t> values(rows);
   column.read(values.data());
-  for (std::size_t row = 0; row < values.size(); ++row) {
+  std::vector<Status> statuses;
+  statuses.reserve(rows);
+  for (std::size_t row = 0; row < rows; ++row) {
     if (values[row] >= status_names.size()) {
-      throw Problem(fmt::format("/trials/status {} in row {} is no outcome", values[row], row));
+      throw Problem(fmt::format("{}/status {} in row {} is no outcome", place, values[row], row));
     }
-    outcomes[row].status = static_cast<Status>(values[row]);
+    statuses.push_back(static_cast<Status>(values[row]));
   }
+  return statuses;
 }
 
 /// The columns that follow from others: what they say must be what follows.
@@ -113,7 +119,8 @@ TrialTable read_trials(hid_t file, const Plan& plan) {
   TrialTable table;
   table.index = read_index(group.id(), plan);
   table.outcomes.resize(table.index.size());
-  read_statuses(group.id(), table.outcomes);
+  const std::vector<Status> statuses = read_statuses(group.id(), "/trials", table.outcomes.size());
+  for (std::size_t row = 0; row < statuses.size(); ++row) table.outcomes[row].status = statuses[row];
   const auto read_field = [&]<class Number>(const layout::OutcomeColumn<Number>& column) {
     const auto values = hdf5::read_column<Number>(group.id(), column.name, column.units, table.outcomes.size());
     for (std::size_t row = 0; row < values.size(); ++row) column.field(table.outcomes[row]) = values[row];
@@ -122,6 +129,41 @@ TrialTable read_trials(hid_t file, const Plan& plan) {
   for (const auto& column : layout::count_columns) read_field(column);
   check_derived_columns(group.id(), plan, table);
   return table;
+}
+
+/// @param trials  those that could be audited
+Audit read_audit(hid_t file, const TrialTable& trials) {
+  const hdf5::Handle group = hdf5::open_group(file, "audit");
+  Audit audit;
+  audit.tolerance = hdf5::read_real_attribute(group.id(), "tolerance");
+  const std::size_t rows = hdf5::Column(group.id(), "index", hdf5::type_of(std::uint64_t{}), "1").rows();
+  if (rows > trials.index.size()) throw Problem(fmt::format("/audit has {} of {} trials", rows, trials.index.size()));
+  const auto index = hdf5::read_column<std::uint64_t>(group.id(), "index", "1", rows);
+  const auto statuses = read_statuses(group.id(), "/audit", rows);
+  const auto cycles = hdf5::read_column<std::uint32_t>(group.id(), "cycles", "1", rows);
+  const auto swings = hdf5::read_column<std::uint32_t>(group.id(), "swings", "1", rows);
+  const auto settling = hdf5::read_column<double>(group.id(), "settling_time", "s", rows);
+  if (std::adjacent_find(index.begin(), index.end(), std::greater_equal<>()) != index.end()) {
+    throw Problem("/audit/index does not rise");
+  }
+  for (std::size_t row = 0; row < rows; ++row) {
+    if (!std::binary_search(trials.index.begin(), trials.index.end(), index[row])) {
+      throw Problem(fmt::format("/audit/index {} is not the index of a trial in the file", index[row]));
+    }
+    if (std::isfinite(settling[row]) != (statuses[row] == Status::converged)) {
+      throw Problem(fmt::format("/audit/settling_time in row {} does not go with its status", row));
+    }
+    audit.trials.push_back({index[row], statuses[row], cycles[row], swings[row], settling[row]});
+  }
+  return audit;
+}
+
+std::optional<InstructionSet> read_simd(hid_t file) {
+  const std::string name = hdf5::read_text_attribute(file, "simd");
+  if (name == layout::no_simd) return std::nullopt;
+  const std::optional<InstructionSet> set = instruction_set_named(name);
+  if (!set) throw Problem(fmt::format("its simd '{}' is no instruction set", name));
+  return set;
 }
 
 std::vector<std::vector<double>> read_parameters(hid_t file, const Plan& plan, std::size_t rows) {
@@ -144,6 +186,7 @@ StoredStudy read_bytes(std::span<const std::byte> bytes) {
   const Plan plan(stored.study);
   stored.result.trials = read_trials(file.id(), plan);
   stored.parameters = read_parameters(file.id(), plan, stored.result.trials.index.size());
+  stored.result.audit = read_audit(file.id(), stored.result.trials);
   stored.result.complete = hdf5::read_flag_attribute(file.id(), "complete");
   if (stored.result.complete && stored.result.trials.index.size() != plan.trials()) {
     throw Problem(
@@ -151,6 +194,7 @@ StoredStudy read_bytes(std::span<const std::byte> bytes) {
   }
   stored.result.wall_s = hdf5::read_real_attribute(file.id(), "wall_s");
   stored.result.threads = hdf5::read_integer_attribute(file.id(), "threads");
+  stored.result.simd = read_simd(file.id());
   return stored;
 }
 

@@ -27,6 +27,7 @@ void write_description(hid_t file, const Study& study, const StudyResult& result
   hdf5::write_attribute(file, "complete", result.complete);
   hdf5::write_attribute(file, "wall_s", result.wall_s);
   hdf5::write_attribute(file, "threads", std::uint32_t{result.threads});
+  hdf5::write_attribute(file, "simd", std::string(result.simd ? name_of(*result.simd) : layout::no_simd));
 }
 
 /// Writes what `value_of(row)` gives as a dataset.
@@ -98,6 +99,19 @@ void write_trajectory(hid_t parent, std::uint64_t index, const std::vector<Traje
   write_names(group.id(), "phase", phase_names, samples.size(), [&](std::size_t row) { return samples[row].phase; });
 }
 
+void write_audit(hid_t file, const Audit& audit) {
+  const hdf5::Handle group = hdf5::create_group(file, "audit");
+  hdf5::write_attribute(group.id(), "tolerance", audit.tolerance);
+  const std::vector<AuditedTrial>& trials = audit.trials;
+  const std::size_t rows = trials.size();
+  write_each<std::uint64_t>(group.id(), "index", rows, "1", [&](std::size_t row) { return trials[row].index; });
+  write_names(group.id(), "status", status_names, rows, [&](std::size_t row) { return trials[row].status; });
+  write_each<std::uint32_t>(group.id(), "cycles", rows, "1", [&](std::size_t row) { return trials[row].cycles; });
+  write_each<std::uint32_t>(group.id(), "swings", rows, "1", [&](std::size_t row) { return trials[row].swings; });
+  write_each<double>(group.id(), "settling_time", rows, "s",
+                     [&](std::size_t row) { return trials[row].settling_time; });
+}
+
 hdf5::Bytes result_bytes(const Study& study, const StudyResult& result) {
   const hdf5::Session session;
   const Plan plan(study);
@@ -105,6 +119,7 @@ hdf5::Bytes result_bytes(const Study& study, const StudyResult& result) {
   write_description(file.id(), study, result);
   write_trials(file.id(), plan, result.trials);
   write_parameters(file.id(), plan, result.trials);
+  write_audit(file.id(), result.audit);
   {
     const hdf5::Handle trajectories = hdf5::create_group(file.id(), "trajectories");
     for (const StudyResult::Retained& retained : result.trajectories) {

@@ -87,6 +87,7 @@ std::string canonical_spec(const Study& study) {
   spec["integrator"]["tolerance"] = study.integrator.tolerance;
   spec["sampling"] = encode_sampling(study.sampling);
   spec["retain"]["trajectories"] = {{"failed", study.retention.failed}, {"first", study.retention.first}};
+  spec["audit"]["trials"] = study.audited_trials;
   std::string text;
   write(spec, text);
   return text;

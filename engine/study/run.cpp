@@ -180,6 +180,24 @@ std::vector<StudyResult::Retained> retained_trajectories(const Study& study, con
   return retained;
 }
 
+/// Computes trials of the run again with the reference integrator. After a stop request no further one is begun.
+Audit audit_of(const Study& study, const Plan& plan, const TrialTable& trials, const std::stop_token& stop) {
+  const IntegratorChoice auditor = auditor_of(study.integrator);
+  const std::vector<std::uint64_t> rows = rows_to_audit(study.sampling.seed, study.audited_trials, trials.index.size());
+  std::vector<std::optional<AuditedTrial>> finished(rows.size());
+  const auto audit_one = [&](std::size_t i) {
+    if (stop.stop_requested()) return;
+    const std::uint64_t index = trials.index[rows[i]];
+    finished[i] = audited(index, make_runner(auditor)->run(plan.parameters(index)));
+  };
+  tbb::parallel_for(std::size_t{0}, rows.size(), audit_one, tbb::simple_partitioner{});
+  Audit audit{auditor.tolerance, {}};
+  for (const std::optional<AuditedTrial>& trial : finished) {
+    if (trial) audit.trials.push_back(*trial);
+  }
+  return audit;
+}
+
 }  // namespace
 
 std::uint64_t block_size(const Study& study) {
@@ -197,6 +215,7 @@ StudyResult run_study(const Study& study, const RunOptions& options) {
 
   StudyResult result;
   result.threads = workers;
+  if (study.integrator.method == IntegratorChoice::Method::lockstep) result.simd = options.simd;
   result.trials.outcomes.resize(trials);
   BlockQueue blocks(trials, block, options.stop);
   std::vector<Tally> tallies(workers);
@@ -209,7 +228,9 @@ StudyResult run_study(const Study& study, const RunOptions& options) {
     const auto work = [&](unsigned worker) {
       try {
         BlockStream stream(plan, blocks, result.trials.outcomes, tallies[worker]);
-        options.make_runner(study.integrator)->run(stream);
+        const auto runner =
+            options.make_runner ? options.make_runner(study.integrator) : make_runner(study.integrator, options.simd);
+        runner->run(stream);
       } catch (...) {
         blocks.halt();
         throw;  // TBB hands the first to the caller
@@ -226,7 +247,12 @@ StudyResult run_study(const Study& study, const RunOptions& options) {
   result.trials.outcomes.resize(kept);
   result.trials.index.resize(kept);
   std::iota(result.trials.index.begin(), result.trials.index.end(), std::uint64_t{0});
-  arena.execute([&] { result.trajectories = retained_trajectories(study, plan, result.trials); });
+  // Of a few lockstep trials, which fill one block, the audit still has work for every thread.
+  tbb::task_arena wide_arena(static_cast<int>(std::min<std::uint64_t>(asked, std::max(workers, cores))));
+  wide_arena.execute([&] {
+    result.trajectories = retained_trajectories(study, plan, result.trials);
+    result.audit = audit_of(study, plan, result.trials, options.stop);
+  });
   return result;
 }
 

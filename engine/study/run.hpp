@@ -3,9 +3,12 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <vector>
 
+#include "core/instruction_set.hpp"
+#include "study/audit.hpp"
 #include "study/plan.hpp"
 #include "study/study.hpp"
 #include "trial/replay.hpp"
@@ -25,10 +28,10 @@ struct RunOptions {
   /// Called from one thread at a time: before the first trial, a few times a second, and after the last; may be empty.
   /// What it throws ends the run and leaves run_study().
   std::function<void(const Progress&)> on_progress{};
-  std::stop_token stop{};  ///< a request ends the run after the blocks in flight
-  /// Makes each worker's runner, on that worker.
-  std::function<std::unique_ptr<TrialRunner>(const IntegratorChoice&)> make_runner{
-      [](const IntegratorChoice& integrator) { return steerstat::make_runner(integrator); }};
+  std::stop_token stop{};                       ///< a request ends the run after the blocks in flight
+  InstructionSet simd{best_instruction_set()};  ///< what lockstep runs on; the outcomes are the same bits on each
+  /// Makes each worker's runner, on that worker; empty: make_runner(integrator, simd).
+  std::function<std::unique_ptr<TrialRunner>(const IntegratorChoice&)> make_runner{};
 };
 
 /// Finished trials, as columns in index order. Whole blocks only: a run that was stopped keeps every block it had
@@ -47,19 +50,22 @@ struct StudyResult {
     Trajectory trajectory;
   };
   std::vector<Retained> trajectories;  ///< as `retention` asks, by index
-  double wall_s{0.0};                  ///< [s] the trials took, retained trajectories not counted
+  Audit audit;                         ///< as `audited_trials` asks; a stop cuts it short
+  double wall_s{0.0};                  ///< [s] the trials took, retained trajectories and audit not counted
   unsigned threads{0};  ///< workers that shared the trials: as asked, but never more than there were blocks
+  std::optional<InstructionSet> simd;  ///< what lockstep ran on; nothing with another integrator
 };
 
-/// Trials a worker claims at a time: several times what the lanes of lockstep hold, which refill across blocks; few with
-/// CVODE, whose trials take milliseconds, so that a stop is quick and the last blocks end together. Depends on the study
-/// alone, so that what a stopped run keeps can be compared between machines.
+/// Trials a worker claims at a time: several times what the lanes of lockstep hold, which refill across blocks; few
+/// with CVODE, whose trials take milliseconds, so that a stop is quick and the last blocks end together. Depends on the
+/// study alone, so that what a stopped run keeps can be compared between machines.
 std::uint64_t block_size(const Study& study);
 
-/// Runs a study on TBB. The outcomes are the same bits whatever the number of threads. Safe to call from several
-/// threads at once.
+/// Runs a study on TBB, then audits it. The outcomes and the audit are the same bits whatever the number of threads.
+/// Safe to call from several threads at once.
 ///
-/// @throws RunFailure, and whatever a worker or the progress callback throws, with nothing kept.
+/// @throws RunFailure, BadUsage where this machine does not run the instruction set asked for, and whatever a worker or
+/// the progress callback throws, with nothing kept.
 StudyResult run_study(const Study& study, const RunOptions& options);
 
 }  // namespace steerstat

@@ -25,7 +25,7 @@ constexpr Range integrator_tolerance{
     .low = 1e-14, .high = 1e-2, .includes_low = true, .includes_high = true, .rule = "in [1e-14, 0.01]"};
 
 // Keys of the interface that this version has not got yet.
-constexpr std::array<std::string_view, 3> later_keys{"stop", "gates", "audit"};
+constexpr std::array<std::string_view, 2> later_keys{"stop", "gates"};
 
 std::size_t characters_in(const std::string& utf8) {
   std::size_t count = 0;
@@ -65,27 +65,22 @@ class Decoder {
       if (errors_.size() != start) mistaken_.emplace_back("sampling");
     }
     if (const auto retain = root_.find("retain")) decode_retention(*retain);
+    if (const auto audit = root_.find("audit")) decode_audit(*audit);
     check_rules(study_, mistaken_, errors_);
     return study_;
   }
 
  private:
   void refuse_unknown_keys() {
-    static constexpr std::array<std::string_view, 10> known{"name",     "nominal",    "plant",   "initial_state",
+    static constexpr std::array<std::string_view, 11> known{"name",     "nominal",    "plant",   "initial_state",
                                                             "goal",     "controller", "horizon", "integrator",
-                                                            "sampling", "retain"};
+                                                            "sampling", "retain",     "audit"};
     root_.refuse_unknown_keys(known, later_keys);
     for (const std::string_view key : later_keys) {
-      const auto member = root_.find(key);
-      if (!member || is_empty_audit(key, *member)) continue;
-      member->fail(
-          fmt::format("this version has no \"{}\" (every trial runs, nothing is judged or audited); remove it", key));
+      if (const auto member = root_.find(key)) {
+        member->fail(fmt::format("this version has no \"{}\" (every trial runs, nothing is judged); remove it", key));
+      }
     }
-  }
-
-  // {"trials": 0} asks for nothing, so nothing is missing.
-  static bool is_empty_audit(std::string_view key, const Reader& reader) {
-    return key == "audit" && reader.value() == Json{{"trials", 0}};
   }
 
   void decode_name(const Reader& reader) {
@@ -229,6 +224,15 @@ class Decoder {
     }
     if (const auto first = trajectories->find("first")) {
       study_.retention.first = first->integer(0, most_trajectories).value_or(0);
+    }
+  }
+
+  void decode_audit(const Reader& reader) {
+    static constexpr std::array<std::string_view, 1> known{"trials"};
+    if (!reader.require_object("an object {\"trials\"}")) return;
+    reader.refuse_unknown_keys(known);
+    if (const auto trials = reader.find("trials")) {
+      study_.audited_trials = trials->integer(0, most_trials).value_or(study_.audited_trials);
     }
   }
 

@@ -61,6 +61,7 @@ struct Study {
   IntegratorChoice integrator{};
   Sampling sampling{};
   Retention retention{};
+  std::uint64_t audited_trials{16};  ///< computed again by the reference integrator; all where there are fewer
 
   friend bool operator==(const Study&, const Study&) = default;
 };

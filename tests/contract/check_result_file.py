@@ -33,6 +33,7 @@ TRIALS = {
     "q1_dot": ("<f8", "m/s"),
     "q2_dot": ("<f8", "rad/s"),
 }
+AUDIT = {name: TRIALS[name] for name in ("index", "status", "cycles", "swings", "settling_time")}
 TRAJECTORY = {
     "t": ("<f8", "s"),
     "q1": ("<f8", "m"),
@@ -77,9 +78,9 @@ def check_columns(group, expected, rows):
 
 def check_attributes(file):
     attributes = dict(file.attrs)
-    names = "filetype format_version engine_version created spec spec_sha256 complete wall_s threads"
+    names = "filetype format_version engine_version created spec spec_sha256 complete wall_s threads simd"
     equal("attributes of the file", set(attributes), set(names.split()))
-    for name in ("filetype", "engine_version", "created", "spec", "spec_sha256"):
+    for name in ("filetype", "engine_version", "created", "spec", "spec_sha256", "simd"):
         equal(f"type of {name}", type(attributes[name]), str)
     equal("filetype", attributes["filetype"], "steerstat-study")
     equal("format_version", attributes["format_version"], 1)
@@ -87,6 +88,7 @@ def check_attributes(file):
     equal("engine_version", bool(re.fullmatch(r"\d+\.\d+\.\d+", attributes["engine_version"])), True)
     equal("created", bool(re.fullmatch(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ", attributes["created"])), True)
     equal("spec_sha256", attributes["spec_sha256"], hashlib.sha256(attributes["spec"].encode()).hexdigest())
+    equal("simd", attributes["simd"] in ("avx512", "avx2", "portable", "none"), True)
     equal("wall_s is not negative", attributes["wall_s"] >= 0, True)
     return json.loads(attributes["spec"])
 
@@ -131,6 +133,46 @@ def check_trials(file, spec):
         listed = spec["sampling"].get("trials", 1)
         draws = len(listed) if isinstance(listed, list) else listed
         equal("index of a complete file", index.tolist(), list(range(draws * cells)))
+
+
+def check_audit(file):
+    audit, index = file["audit"], file["trials/index"][:]
+    rows = len(audit["index"])
+    check_columns(audit, AUDIT, rows)
+    equal("attributes of /audit", {name: type(value) for name, value in audit.attrs.items()}, {"tolerance": np.float64})
+    equal("audited trials rise", bool(np.all(np.diff(audit["index"][:].astype(np.int64)) > 0)), True)
+    equal("audited trials are in the file", bool(np.all(np.isin(audit["index"][:], index))), True)
+    converged = audit["status"][:] == OUTCOMES["converged"]
+    equal("audited settling times", bool(np.array_equal(np.isfinite(audit["settling_time"][:]), converged)), True)
+
+
+def audit_summary(file):
+    audit, trials = file["audit"], file["trials"]
+    rows = np.searchsorted(trials["index"][:], audit["index"][:])
+    same = np.all([audit[name][:] == trials[name][:][rows] for name in ("status", "cycles", "swings")], axis=0)
+    times = np.abs(audit["settling_time"][:] - trials["settling_time"][:][rows])[same & (audit["status"][:] == 0)]
+    if len(rows) == 0:
+        return None
+    return {
+        "trials": len(rows),
+        "agree": int(np.sum(same)),
+        "disagree": audit["index"][:][~same].tolist(),
+        "settling_time_difference": {
+            "median": np.median(times), "p99": np.quantile(times, 0.99), "max": np.max(times)
+        } if len(times) else None,
+        "tolerance": audit.attrs["tolerance"],
+    }
+
+
+def check_audit_summary(file, found):
+    expected = audit_summary(file)
+    difference = "settling_time_difference"
+    if expected and expected[difference]:
+        for name, value in expected[difference].items():
+            # The quantiles' last bits are those of their interpolation.
+            if np.isclose(found[difference][name], value, rtol=1e-9, atol=0):
+                expected[difference][name] = found[difference][name]
+    equal("audit in the summary", found, expected)
 
 
 def check_trajectories(file, spec):
@@ -183,6 +225,8 @@ def check_summary(file, spec, path):
     equal("spec_sha256", summary["study"]["spec_sha256"], file.attrs["spec_sha256"])
     equal("complete", summary["complete"], bool(file.attrs["complete"]))
     equal("wall_s", summary["performance"]["wall_s"], file.attrs["wall_s"])
+    equal("simd", summary["performance"]["simd"] or "none", file.attrs["simd"])
+    check_audit_summary(file, summary["audit"])
     check_statistics("all", summary, trials["status"], trials["settling_time"], trials["cycles"])
     for number, cell in enumerate(summary["cells"]):
         rows = trials["cell"] == number
@@ -195,9 +239,10 @@ def check_summary(file, spec, path):
 
 def check(path, summary):
     with h5py.File(path, "r") as file:
-        equal("groups of the file", set(file), {"trials", "parameters", "trajectories"})
+        equal("groups of the file", set(file), {"trials", "parameters", "audit", "trajectories"})
         spec = check_attributes(file)
         check_trials(file, spec)
+        check_audit(file)
         check_trajectories(file, spec)
         if summary:
             check_summary(file, spec, summary)

@@ -37,7 +37,7 @@ TEST(SummaryJson, HasTheInterfacesKeysInItsOrder) {
   EXPECT_EQ(keys_of(json["cycles"]), sample_keys);
   EXPECT_EQ(keys_of(json["cells"][0]),
             (std::vector<std::string>{"sweep", "trials", "success_rate", "outcomes", "settling_time", "cycles"}));
-  EXPECT_EQ(keys_of(json["performance"]), (std::vector<std::string>{"wall_s", "trials_per_s", "threads"}));
+  EXPECT_EQ(keys_of(json["performance"]), (std::vector<std::string>{"wall_s", "trials_per_s", "threads", "simd"}));
 }
 
 TEST(SummaryJson, HoldsTheSummarysValuesToTheBit) {
@@ -57,6 +57,31 @@ TEST(SummaryJson, HoldsTheSummarysValuesToTheBit) {
   EXPECT_EQ(json["gates"], Json::array());
   EXPECT_TRUE(json["audit"].is_null());
   EXPECT_EQ(json["performance"]["trials_per_s"].get<double>(), 2.5);
+}
+
+TEST(SummaryJson, TellsWhatTheAuditFound) {
+  Summary summary = made_up_summary({7, 3, 0, 0, 0});
+  summary.audit = AuditStatistics{5, 3, {2, 9}, AuditStatistics::Difference{1e-8, 2e-8, 3e-8}, 1e-11};
+  const Json audit = json_of(summary)["audit"];
+  EXPECT_EQ(keys_of(audit),
+            (std::vector<std::string>{"trials", "agree", "disagree", "settling_time_difference", "tolerance"}));
+  EXPECT_EQ(audit["trials"], 5);
+  EXPECT_EQ(audit["agree"], 3);
+  EXPECT_EQ(audit["disagree"], Json::array({2, 9}));
+  EXPECT_EQ(audit["settling_time_difference"], Json({{"median", 1e-8}, {"p99", 2e-8}, {"max", 3e-8}}));
+  EXPECT_EQ(audit["tolerance"].get<double>(), 1e-11);
+
+  summary.audit->settling_time_difference.reset();
+  summary.audit->disagree.clear();
+  EXPECT_TRUE(json_of(summary)["audit"]["settling_time_difference"].is_null());
+  EXPECT_EQ(json_of(summary)["audit"]["disagree"], Json::array());
+}
+
+TEST(SummaryJson, NamesTheInstructionSetOfLockstepAlone) {
+  Summary summary = made_up_summary({1, 0, 0, 0, 0});
+  EXPECT_EQ(json_of(summary)["performance"]["simd"], "avx512");
+  summary.simd.reset();
+  EXPECT_TRUE(json_of(summary)["performance"]["simd"].is_null());
 }
 
 TEST(SummaryJson, KeepsSeedsAndCountsOfSixtyFourBits) {

@@ -107,6 +107,41 @@ TEST(Summarise, HasASuccessRateButNoSettlingTimeWhereNoTrialConverged) {
   EXPECT_TRUE(summary.complete);
 }
 
+AuditedTrial audit_of(std::uint64_t index, Status status, double settling_time, std::uint32_t cycles) {
+  return audited(index, ended(status, settling_time, cycles));
+}
+
+TEST(Summarise, ComparesTheAuditedTrialsWithTheirOwnRows) {
+  StudyResult result = six_trials();
+  result.audit.tolerance = 1e-11;
+  result.audit.trials = {audit_of(0, Status::converged, 40.5, 5), audit_of(1, Status::timeout, 300.0, 20),
+                         audit_of(2, Status::converged, 50.0, 7),  // one cycle more
+                         audit_of(4, Status::timeout, 300.0, 1),   // another end
+                         audit_of(7, Status::converged, 89.75, 9)};
+  const auto audit = summarise(sweep_of_two(4), result).audit;
+  ASSERT_TRUE(audit);
+  EXPECT_EQ(audit->trials, 5U);
+  EXPECT_EQ(audit->agree, 3U);
+  EXPECT_EQ(audit->disagree, (std::vector<std::uint64_t>{2, 4}));
+  ASSERT_TRUE(audit->settling_time_difference);
+  EXPECT_EQ(audit->settling_time_difference->median, 0.375);
+  EXPECT_EQ(audit->settling_time_difference->p99, quantile(std::vector<double>{0.25, 0.5}, 0.99));
+  EXPECT_EQ(audit->settling_time_difference->max, 0.5);
+  EXPECT_EQ(audit->tolerance, 1e-11);
+}
+
+TEST(Summarise, HasNoSettlingTimeDifferenceWhereNoConvergedTrialAgrees) {
+  StudyResult result = six_trials();
+  result.audit.trials = {audit_of(1, Status::timeout, 300.0, 20), audit_of(2, Status::converged, 50.0, 7)};
+  const auto audit = summarise(sweep_of_two(4), result).audit;
+  ASSERT_TRUE(audit);
+  EXPECT_FALSE(audit->settling_time_difference);
+}
+
+TEST(Summarise, HasNoAuditWithoutAuditedTrials) {
+  EXPECT_FALSE(summarise(sweep_of_two(4), six_trials()).audit);
+}
+
 TEST(Summarise, CellsAddUpToTheWhole) {
   StudyResult result;
   for (std::uint64_t index = 0; index < 200; ++index) {

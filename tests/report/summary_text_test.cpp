@@ -29,7 +29,7 @@ TEST(SummaryText, TellsWhatAPersonAsksFirst) {
   EXPECT_THAT(text, HasSubstr("  timeout               590  29.50 %  ██████"));
   EXPECT_THAT(text, HasSubstr("  integrator_failed       0        –\n"));
   EXPECT_THAT(text, HasSubstr("settling time [s]  10.00  711.00  7020.00"));
-  EXPECT_THAT(text, HasSubstr("2,000 trials in 4.0 s on 2 threads: 500 trials/s"));
+  EXPECT_THAT(text, HasSubstr("2,000 trials in 4.0 s on 2 threads with avx512: 500 trials/s"));
   EXPECT_THAT(text, Not(HasSubstr("Incomplete")));
 }
 
@@ -65,6 +65,33 @@ TEST(SummaryText, SaysThatNoTrialHasFinished) {
   summary.complete = false;
   summary.requested = 10;
   EXPECT_THAT(summary_text(summary, false), AllOf(HasSubstr("No trial has finished."), Not(HasSubstr("nan"))));
+}
+
+Summary audited_summary(AuditStatistics audit) {
+  Summary summary = made_up_summary({1403, 590, 5, 2, 0});
+  summary.audit = std::move(audit);
+  return summary;
+}
+
+TEST(SummaryText, SaysThatTheAuditAgrees) {
+  const std::string text = summary_text(
+      audited_summary({16, 16, {}, AuditStatistics::Difference{1.24e-8, 2e-8, 3.1e-8}, 1e-9 / 100.0}), false);
+  EXPECT_THAT(text,
+              HasSubstr("\n  Audit  16 of 16 trials agree with SUNDIALS at tolerance 1e-11 in status, cycles and "
+                        "swings\n         Settling times differ by 1.2e-08 s in the median, 3.1e-08 s at most.\n"));
+  EXPECT_THAT(text, Not(HasSubstr("Not trial")));
+}
+
+TEST(SummaryText, NamesTheFirstTrialsThatTheAuditContradicts) {
+  EXPECT_THAT(summary_text(audited_summary({16, 14, {3, 99}, {}, 1e-11}), false),
+              AllOf(HasSubstr("14 of 16 trials agree"), HasSubstr("Not trial 3, 99.\n"), Not(HasSubstr("differ"))));
+  const std::string many = summary_text(audited_summary({2000, 1993, {1, 2, 3, 4, 5, 6, 7}, {}, 1e-11}), false);
+  EXPECT_THAT(many, HasSubstr("Not trial 1, 2, 3, 4, 5 and 2 more.\n"));
+  for (const std::string& line : lines_of(many)) EXPECT_LE(display_width(line), 100U) << line;
+}
+
+TEST(SummaryText, DoesNotMentionAnAuditThatWasNotMade) {
+  EXPECT_THAT(summary_text(made_up_summary({5, 5, 0, 0, 0}), false), Not(HasSubstr("Audit")));
 }
 
 TEST(SummaryText, OfOneTrialIsOneSentence) {

@@ -103,10 +103,11 @@ class ForeignFile : public DamagedFile {
     hdf5::checked(H5Ldelete(file, name, H5P_DEFAULT), "cannot remove");
   }
 
-  /// Replaces a dataset of /trials by one of other values.
+  /// Replaces a dataset of /trials or of another group by one of other values.
   template <class Number>
-  static void replace(hid_t file, const char* name, std::vector<Number> values, const char* units = "1") {
-    const hdf5::Handle group = hdf5::open_group(file, "trials");
+  static void replace(hid_t file, const char* name, std::vector<Number> values, const char* units = "1",
+                      const char* place = "trials") {
+    const hdf5::Handle group = hdf5::open_group(file, place);
     remove(group.id(), name);
     hdf5::write_column<Number>(group.id(), name, values, units);
   }
@@ -201,6 +202,36 @@ TEST_F(ForeignFile, MustHaveColumnsThatAgreeWithEachOther) {
   EXPECT_THAT(complaint(), HasSubstr("cell 1 in row 0"));
   rewrite([&](hid_t file) { replace(file, "settling_time", std::vector<double>(rows_, 3.0), "s"); });
   EXPECT_THAT(complaint(), HasSubstr("settling_time in row 0"));
+}
+
+TEST_F(ForeignFile, MustHaveAnAuditOfItsOwnTrials) {
+  const auto audit_of = [&](std::vector<std::uint64_t> index) {
+    rewrite([&](hid_t file) { replace(file, "index", index, "1", "audit"); });
+    return complaint();
+  };
+  EXPECT_EQ(audit_of({0, 3, 10}), "");
+  EXPECT_THAT(audit_of({0, 3, 3}), HasSubstr("/audit/index does not rise"));
+  EXPECT_THAT(audit_of({0, 3, 120}), HasSubstr("/audit/index 120 is not the index of a trial in the file"));
+  EXPECT_THAT(audit_of({0, 3}), HasSubstr("/audit/index 2"));
+  EXPECT_THAT(audit_of(std::vector<std::uint64_t>(rows_ + 1)), HasSubstr("/audit has 121 of 120 trials"));
+}
+
+TEST_F(ForeignFile, MustHaveAnAuditThatAgreesWithItself) {
+  const StudyResult result = made_up_result(study_);
+  std::vector<double> times;
+  for (const AuditedTrial& trial : result.audit.trials) {
+    times.push_back(trial.status == Status::converged ? trial.settling_time : 1.0);
+  }
+  ASSERT_NE(std::count_if(times.begin(), times.end(), [](double t) { return t == 1.0; }), 0);
+  rewrite([&](hid_t file) { replace(file, "settling_time", times, "s", "audit"); });
+  EXPECT_THAT(complaint(), HasSubstr("/audit/settling_time in row"));
+  rewrite([](hid_t file) { remove(file, "audit"); });
+  EXPECT_THAT(complaint(), HasSubstr("audit"));
+}
+
+TEST_F(ForeignFile, MustNameAnInstructionSetThatExists) {
+  rewrite([](hid_t file) { set_attribute(file, "simd", std::string("mmx")); });
+  EXPECT_THAT(complaint(), HasSubstr("simd 'mmx' is no instruction set"));
 }
 
 TEST_F(ForeignFile, MustHaveAllTrialsWhenItIsCalledComplete) {

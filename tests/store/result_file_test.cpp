@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <optional>
 #include <thread>
+#include <tuple>
 
 #include "core/errors.hpp"
 #include "core/version.hpp"
@@ -27,6 +30,15 @@ void expect_same_trials(const StudyResult& a, const StudyResult& b) {
   EXPECT_EQ(a.complete, b.complete);
   EXPECT_EQ(a.wall_s, b.wall_s);
   EXPECT_EQ(a.threads, b.threads);
+  EXPECT_EQ(a.simd, b.simd);
+  EXPECT_EQ(a.audit.tolerance, b.audit.tolerance);
+  ASSERT_EQ(a.audit.trials.size(), b.audit.trials.size());
+  for (std::size_t row = 0; row < a.audit.trials.size(); ++row) {
+    const AuditedTrial& x = a.audit.trials[row];
+    const AuditedTrial& y = b.audit.trials[row];
+    EXPECT_EQ(std::tie(x.index, x.status, x.cycles, x.swings), std::tie(y.index, y.status, y.cycles, y.swings));
+    EXPECT_TRUE(x.settling_time == y.settling_time || (std::isnan(x.settling_time) && std::isnan(y.settling_time)));
+  }
 }
 
 class ResultFile : public testing::Test {
@@ -44,6 +56,16 @@ TEST_F(ResultFile, ReadsBackTheSameBits) {
   EXPECT_EQ(stored.engine_version, engine_version());
   EXPECT_THAT(stored.created, MatchesRegex("20..-..-..T..:..:..Z"));
   expect_same_trials(stored.result, result);
+}
+
+TEST_F(ResultFile, KeepsWhatItRanOnAndSaysNoneOfTheReference) {
+  StudyResult result = made_up_result(sample_study(5));
+  for (const std::optional<InstructionSet> set :
+       {std::optional(InstructionSet::avx512), std::optional(InstructionSet::portable), {}}) {
+    result.simd = set;
+    write_result(path_, sample_study(5), result);
+    EXPECT_EQ(read_result(path_).result.simd, set);
+  }
 }
 
 TEST_F(ResultFile, HoldsTheDrawsOfEveryTrial) {

@@ -10,6 +10,7 @@
 #include <iterator>
 #include <limits>
 #include <random>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -51,7 +52,7 @@ inline TrialOutcome made_up_outcome(std::mt19937_64& generator) {
   return outcome;
 }
 
-/// Every trial of `study`, finished.
+/// Every trial of `study`, finished; three of them audited.
 inline StudyResult made_up_result(const Study& study, unsigned seed = 1) {
   std::mt19937_64 generator(seed);
   StudyResult result;
@@ -63,6 +64,15 @@ inline StudyResult made_up_result(const Study& study, unsigned seed = 1) {
   result.complete = true;
   result.wall_s = 1.25;
   result.threads = 2;
+  result.simd = InstructionSet::avx2;
+  result.audit.tolerance = 1e-11;
+  for (const std::uint64_t index : {0U, 3U, 10U}) {
+    if (index >= trials) continue;
+    result.audit.trials.push_back(audited(index, result.trials.outcomes[index]));
+    AuditedTrial& trial = result.audit.trials.back();
+    trial.settling_time += 1e-8;
+    trial.swings += index == 3 ? 1 : 0;  // the one that disagrees
+  }
   return result;
 }
 
@@ -99,7 +109,9 @@ class TemporaryDirectory {
 
 inline std::string bytes_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
+  std::ostringstream bytes;
+  bytes << file.rdbuf();
+  return bytes.str();
 }
 
 inline void set_bytes(const std::filesystem::path& path, const std::string& bytes) {

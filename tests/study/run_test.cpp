@@ -78,7 +78,7 @@ RunOptions echo_options(unsigned threads, EchoRunner::OnTrial on_trial = {}) {
 
 Study drawn_study(std::uint64_t trials, const std::string& more = "") {
   return study_of(R"({"plant": {"m1": {"uniform": [0.8, 1.2]}}, "initial_state": {"q1": {"uniform": [-1, 1]}},
-                      "integrator": {"method": "cvode"}, "sampling": {"trials": )" +
+                      "integrator": {"method": "cvode"}, "audit": {"trials": 0}, "sampling": {"trials": )" +
                   std::to_string(trials) + "}" + more + "}");
 }
 
@@ -97,7 +97,7 @@ TEST_P(RunStudyOnAnEngine, OutcomesAreTheSameBitsOnOneTwoAndThreeThreads) {
   Study study = study_of(R"({
       "plant": {"m1": {"uniform": [0.8, 1.2]}, "m2": {"uniform": [0.8, 1.2]}, "f2": {"uniform": [0, 0.05]}},
       "initial_state": {"q1": {"uniform": [-1, 1]}, "q2": {"uniform": [-3.1, 3.1]}},
-      "horizon": 60, "sampling": {"trials": 1}})");
+      "horizon": 60, "sampling": {"trials": 1}, "audit": {"trials": 0}})");
   study.integrator.method = GetParam();
   study.sampling.trials = 4 * block_size(study) + 3;
   RunOptions options;
@@ -144,7 +144,8 @@ class StoppingRunner final : public TrialRunner {
 };
 
 TEST_P(RunStudyOnAnEngine, WhatAStoppedRunKeepsIsWhatAWholeRunHas) {
-  Study study = study_of(R"({"plant": {"m1": {"uniform": [0.8, 1.2]}}, "horizon": 30, "sampling": {"trials": 1}})");
+  Study study = study_of(R"({"plant": {"m1": {"uniform": [0.8, 1.2]}}, "horizon": 30, "sampling": {"trials": 1},
+      "audit": {"trials": 0}})");
   study.integrator.method = GetParam();
   study.sampling.trials = 10 * block_size(study);
   RunOptions options;
@@ -170,6 +171,28 @@ INSTANTIATE_TEST_SUITE_P(Engines, RunStudyOnAnEngine,
                          [](const auto& one) {
                            return std::string(IntegratorChoice::method_names[static_cast<std::size_t>(one.param)]);
                          });
+
+TEST(RunStudy, OutcomesAreTheSameBitsOnEveryInstructionSetAndTheResultSaysWhichItWas) {
+  const Study study = study_of(R"({"plant": {"m1": {"uniform": [0.8, 1.2]}}, "horizon": 60,
+      "sampling": {"trials": 150}, "audit": {"trials": 0}})");
+  const StudyResult portable = run_study(study, {.simd = InstructionSet::portable});
+  EXPECT_EQ(portable.simd, InstructionSet::portable);
+  for (const InstructionSet set : {InstructionSet::avx2, InstructionSet::avx512}) {
+    if (!supports(set)) {
+      EXPECT_THROW(run_study(study, {.simd = set}), BadUsage);
+      continue;
+    }
+    const StudyResult other = run_study(study, {.simd = set});
+    EXPECT_EQ(other.simd, set);
+    for (std::size_t row = 0; row < 150; ++row) {
+      EXPECT_TRUE(same_bits(other.trials.outcomes[row], portable.trials.outcomes[row])) << "trial " << row;
+    }
+  }
+}
+
+TEST(RunStudy, OnTheReferenceUsesNoInstructionSet) {
+  EXPECT_FALSE(run_study(study_of(R"({"horizon": 1, "integrator": {"method": "cvode"}})"), {}).simd);
+}
 
 TEST(RunStudy, EveryTrialIsStoredAtItsIndexHoweverTrialsFinish) {
   for (const std::uint64_t trials : {1U, 15U, 16U, 17U, 500U}) {  // one block has 16 trials
@@ -363,7 +386,8 @@ TEST(RunStudy, WhatTheLastProgressCallThrowsIsNotLost) {
 
 TEST(RunStudy, RetainsTheFirstTrialsAndTheFirstFailuresByIndex) {
   const Study study = study_of(R"({"plant": {"f2": {"uniform": [0, 0.06]}}, "integrator": {"method": "cvode"},
-      "horizon": 120, "sampling": {"trials": 24}, "retain": {"trajectories": {"failed": 3, "first": 2}}})");
+      "horizon": 120, "sampling": {"trials": 24}, "retain": {"trajectories": {"failed": 3, "first": 2}},
+      "audit": {"trials": 0}})");
   RunOptions options;
   options.threads = 2;
   const StudyResult result = run_study(study, options);
@@ -386,7 +410,7 @@ TEST(RunStudy, RetainsTheFirstTrialsAndTheFirstFailuresByIndex) {
 
 TEST(RunStudy, RetainsAllWhereFewerFinishedThanAskedFor) {
   const Study study = study_of(R"({"initial_state": {"q1": {"uniform": [0.9, 1.1]}},
-      "integrator": {"method": "cvode"}, "horizon": 1, "sampling": {"trials": 3},
+      "integrator": {"method": "cvode"}, "horizon": 1, "sampling": {"trials": 3}, "audit": {"trials": 0},
       "retain": {"trajectories": {"failed": 100, "first": 100}}})");
   EXPECT_EQ(run_study(study, {}).trajectories.size(), 3U);
 }

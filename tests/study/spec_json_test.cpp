@@ -34,7 +34,7 @@ std::vector<SpecError> errors_of(const std::string& spec) {
 }
 
 const char* const canonical_empty_spec =
-    R"({"controller":{"alignment":{"kd":5,"kp":7,"tolerance":0.001},)"
+    R"({"audit":{"trials":16},"controller":{"alignment":{"kd":5,"kp":7,"tolerance":0.001},)"
     R"("contraction":{"eta1":0.5,"eta2":0.6,"max_period":30},)"
     R"("convergence":{"active_tolerance":0.02,"tolerance":0.005},"drift":{"min_speed":0},"entry_fraction":0.5,)"
     R"("realignment":"after_cycle","rest_speed":0.001,)"
@@ -56,6 +56,7 @@ TEST(DecodeStudy, TheEmptySpecHasEveryDefault) {
   EXPECT_EQ(study.sampling.trials, 1U);
   EXPECT_EQ(study.sampling.seed, 1U);
   EXPECT_EQ(study.retention, Retention{});
+  EXPECT_EQ(study.audited_trials, 16U);
 }
 
 TEST(DecodeStudy, InputsAreCompleteAndInOrder) {
