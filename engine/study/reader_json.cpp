@@ -62,8 +62,12 @@ std::string shown(const Json& value) {
 }
 
 std::string listed(std::span<const std::string_view> words) {
-  if (words.size() < 2) return words.empty() ? std::string() : std::string(words.front());
-  return fmt::format("{} and {}", fmt::join(words.first(words.size() - 1), ", "), words.back());
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0) text += i + 1 < words.size() ? ", " : " and ";
+    text += words[i];
+  }
+  return text;
 }
 
 void Reader::fail(std::string detail) const {
