@@ -102,7 +102,7 @@ Study small_study(std::uint64_t audited_trials) {
   Study study = decode_study(R"({
       "plant": {"m1": {"uniform": [0.8, 1.2]}, "m2": {"uniform": [0.8, 1.2]}, "f2": {"uniform": [0, 0.05]}},
       "initial_state": {"q1": {"uniform": [-1, 1]}, "q2": {"uniform": [-3.1, 3.1]}},
-      "horizon": 90, "sampling": {"trials": 300}})",
+      "horizon": 300, "sampling": {"trials": 300}})",
                              {});
   study.audited_trials = audited_trials;
   return study;
@@ -121,8 +121,10 @@ std::vector<std::uint64_t> indices_of(const Audit& audit) {
 }
 
 TEST(RunStudysAudit, AgreesWithLockstep) {
-  const StudyResult result = run_study(small_study(60), on_threads(2));
-  EXPECT_EQ(result.audit.tolerance, 1e-9 / 100.0);
+  Study study = small_study(60);
+  study.integrator.tolerance = 1e-10;
+  const StudyResult result = run_study(study, on_threads(2));
+  EXPECT_EQ(result.audit.tolerance, 1e-12);
   ASSERT_EQ(result.audit.trials.size(), 60U);
   int converged = 0;
   for (const AuditedTrial& trial : result.audit.trials) {
