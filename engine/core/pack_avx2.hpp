@@ -113,4 +113,49 @@ inline Pack two_to(Pack n) {
   return {detail::two_to(n.a), detail::two_to(n.b)};
 }
 
+/// The lanes of a Pack in single precision, in one register.
+struct Single {
+  __m256 v;
+
+  Single() = default;
+  Single(__m256 x) : v(x) {}
+  Single(double x) : v(_mm256_set1_ps(static_cast<float>(x))) {}  // NOLINT: numbers convert as they do to float
+
+  friend Single operator+(Single x, Single y) { return _mm256_add_ps(x.v, y.v); }
+  friend Single operator-(Single x, Single y) { return _mm256_sub_ps(x.v, y.v); }
+  friend Single operator*(Single x, Single y) { return _mm256_mul_ps(x.v, y.v); }
+  friend Mask operator<(Single x, Single y) {
+    const __m256i m = _mm256_castps_si256(_mm256_cmp_ps(x.v, y.v, _CMP_LT_OQ));
+    return {_mm256_castsi256_pd(_mm256_cvtepi32_epi64(_mm256_castsi256_si128(m))),
+            _mm256_castsi256_pd(_mm256_cvtepi32_epi64(_mm256_extracti128_si256(m, 1)))};
+  }
+};
+
+inline Single fma(Single x, Single y, Single z) {
+  return _mm256_fmadd_ps(x.v, y.v, z.v);
+}
+inline Single fnma(Single x, Single y, Single z) {
+  return _mm256_fnmadd_ps(x.v, y.v, z.v);
+}
+inline Single abs(Single x) {
+  return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), x.v);
+}
+inline Single min(Single x, Single y) {
+  return _mm256_min_ps(x.v, y.v);
+}
+inline Single select(Mask m, Single x, Single y) {
+  // The even halves of a's and b's words, in order.
+  const __m256 words = _mm256_shuffle_ps(_mm256_castpd_ps(m.a), _mm256_castpd_ps(m.b), _MM_SHUFFLE(2, 0, 2, 0));
+  const __m256d ordered = _mm256_permute4x64_pd(_mm256_castps_pd(words), _MM_SHUFFLE(3, 1, 2, 0));
+  return _mm256_blendv_ps(y.v, x.v, _mm256_castpd_ps(ordered));
+}
+/// Rounded to nearest.
+inline Single narrow(Pack x) {
+  return _mm256_set_m128(_mm256_cvtpd_ps(x.b), _mm256_cvtpd_ps(x.a));
+}
+/// Exact.
+inline Pack widen(Single x) {
+  return {_mm256_cvtps_pd(_mm256_castps256_ps128(x.v)), _mm256_cvtps_pd(_mm256_extractf128_ps(x.v, 1))};
+}
+
 }  // namespace steerstat::STEERSTAT_ISA

@@ -111,4 +111,45 @@ inline Pack two_to(Pack n) {
   return {detail::two_to(n.a), detail::two_to(n.b)};
 }
 
+/// The lanes of a Pack in single precision, in one register.
+struct Single {
+  __m512 v;
+
+  Single() = default;
+  Single(__m512 x) : v(x) {}
+  Single(double x) : v(_mm512_set1_ps(static_cast<float>(x))) {}  // NOLINT: numbers convert as they do to float
+
+  friend Single operator+(Single x, Single y) { return _mm512_add_ps(x.v, y.v); }
+  friend Single operator-(Single x, Single y) { return _mm512_sub_ps(x.v, y.v); }
+  friend Single operator*(Single x, Single y) { return _mm512_mul_ps(x.v, y.v); }
+  friend Mask operator<(Single x, Single y) {
+    const __mmask16 m = _mm512_cmp_ps_mask(x.v, y.v, _CMP_LT_OQ);
+    return {static_cast<__mmask8>(m), static_cast<__mmask8>(m >> 8)};
+  }
+};
+
+inline Single fma(Single x, Single y, Single z) {
+  return _mm512_fmadd_ps(x.v, y.v, z.v);
+}
+inline Single fnma(Single x, Single y, Single z) {
+  return _mm512_fnmadd_ps(x.v, y.v, z.v);
+}
+inline Single abs(Single x) {
+  return _mm512_abs_ps(x.v);
+}
+inline Single min(Single x, Single y) {
+  return _mm512_min_ps(x.v, y.v);
+}
+inline Single select(Mask m, Single x, Single y) {
+  return _mm512_mask_blend_ps(static_cast<__mmask16>(m.a | m.b << 8), y.v, x.v);
+}
+/// Rounded to nearest.
+inline Single narrow(Pack x) {
+  return _mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(x.a)), _mm512_cvtpd_ps(x.b), 1);
+}
+/// Exact.
+inline Pack widen(Single x) {
+  return {_mm512_cvtps_pd(_mm512_castps512_ps256(x.v)), _mm512_cvtps_pd(_mm512_extractf32x8_ps(x.v, 1))};
+}
+
 }  // namespace steerstat::STEERSTAT_ISA

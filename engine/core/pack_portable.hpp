@@ -35,24 +35,34 @@ struct Pack {
   Pack(double x) : v{x, x, x, x} {}  // NOLINT: numbers convert as they do to double
 };
 
+/// The lanes of a Pack in single precision.
+struct Single {
+  std::array<float, 4> v;
+
+  Single() = default;
+  Single(double x) {  // NOLINT: numbers convert as they do to float
+    v.fill(static_cast<float>(x));
+  }
+};
+
 namespace detail {
-template <class Function>
-Pack each(Function f, Pack x) {
-  for (double& value : x.v) value = f(value);
+template <class Function, class Lanes>
+Lanes each(Function f, Lanes x) {
+  for (auto& value : x.v) value = f(value);
   return x;
 }
-template <class Function>
-Pack each(Function f, Pack x, const Pack& y) {
+template <class Function, class Lanes>
+Lanes each(Function f, Lanes x, const Lanes& y) {
   for (std::size_t i = 0; i < 4; ++i) x.v[i] = f(x.v[i], y.v[i]);
   return x;
 }
-template <class Function>
-Pack each(Function f, Pack x, const Pack& y, const Pack& z) {
+template <class Function, class Lanes>
+Lanes each(Function f, Lanes x, const Lanes& y, const Lanes& z) {
   for (std::size_t i = 0; i < 4; ++i) x.v[i] = f(x.v[i], y.v[i], z.v[i]);
   return x;
 }
-template <class Function>
-Mask compare(Function f, const Pack& x, const Pack& y) {
+template <class Function, class Lanes>
+Mask compare(Function f, const Lanes& x, const Lanes& y) {
   Mask m{};
   for (std::size_t i = 0; i < 4; ++i) m.m[i] = f(x.v[i], y.v[i]);
   return m;
@@ -142,6 +152,47 @@ inline Pack mantissa(Pack x) {
 inline Pack two_to(Pack n) {
   return detail::each(
       [](double p) { return std::bit_cast<double>(std::bit_cast<std::uint64_t>(p + (0x1p52 + 1023.0)) << 52); }, n);
+}
+
+inline Single operator+(Single x, Single y) {
+  return detail::each([](float p, float q) { return p + q; }, x, y);
+}
+inline Single operator-(Single x, Single y) {
+  return detail::each([](float p, float q) { return p - q; }, x, y);
+}
+inline Single operator*(Single x, Single y) {
+  return detail::each([](float p, float q) { return p * q; }, x, y);
+}
+inline Mask operator<(Single x, Single y) {
+  return detail::compare([](float p, float q) { return p < q; }, x, y);
+}
+inline Single fma(Single x, Single y, Single z) {
+  return detail::each([](float p, float q, float r) { return std::fma(p, q, r); }, x, y, z);
+}
+inline Single fnma(Single x, Single y, Single z) {
+  return detail::each([](float p, float q, float r) { return std::fma(-p, q, r); }, x, y, z);
+}
+inline Single abs(Single x) {
+  return detail::each([](float p) { return std::abs(p); }, x);
+}
+inline Single min(Single x, Single y) {
+  return detail::each([](float p, float q) { return p < q ? p : q; }, x, y);
+}
+inline Single select(Mask m, Single x, Single y) {
+  for (std::size_t i = 0; i < 4; ++i) x.v[i] = m.m[i] ? x.v[i] : y.v[i];
+  return x;
+}
+/// Rounded to nearest.
+inline Single narrow(Pack x) {
+  Single y;
+  for (std::size_t i = 0; i < 4; ++i) y.v[i] = static_cast<float>(x.v[i]);
+  return y;
+}
+/// Exact.
+inline Pack widen(Single x) {
+  Pack y;
+  for (std::size_t i = 0; i < 4; ++i) y.v[i] = static_cast<double>(x.v[i]);
+  return y;
 }
 
 }  // namespace steerstat::STEERSTAT_ISA

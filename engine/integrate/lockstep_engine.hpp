@@ -20,8 +20,9 @@ class LockstepEngine {
  public:
   /// Work done since the engine was made.
   struct Counters {
-    std::uint64_t steps{0};       ///< of the whole pack
-    std::uint64_t lane_steps{0};  ///< of lanes with a trial in them
+    std::uint64_t steps{0};       ///< of a pack
+    std::uint64_t lane_slots{0};  ///< steps of all lanes
+    std::uint64_t lane_steps{0};  ///< steps of lanes with a trial in them
     std::uint64_t searches{0};    ///< for a guard on a lane's polynomial
     std::uint64_t arrivals{0};    ///< phases that ended
   };
@@ -33,7 +34,7 @@ class LockstepEngine {
 
   [[nodiscard]] virtual InstructionSet instruction_set() const = 0;
 
-  /// @return how many lanes, at most 32
+  /// @return how many lanes, at most 64
   [[nodiscard]] virtual int lanes() const = 0;
 
   /// Gives a lane to a trial. @param loop  its closed loop
@@ -46,7 +47,7 @@ class LockstepEngine {
   virtual void vacate(int lane) = 0;
 
   /// Advances every seated lane by one step. @return a bit for each lane whose phase has ended
-  virtual std::uint32_t step() = 0;
+  virtual std::uint64_t step() = 0;
 
   /// Where the phase of a lane ended, or stands.
   [[nodiscard]] virtual Arrival arrival(int lane) const = 0;

@@ -3,36 +3,67 @@
 
 namespace steerstat::STEERSTAT_ISA {
 
+/// 1 / k, for k = 1 ... order + 1. The search's loops stay rolled: its code must not push the series' out of the cache.
+inline constexpr std::array<double, order + 2> reciprocals = [] {
+  std::array<double, order + 2> r{};
+  for (std::size_t k = 1; k < r.size(); ++k) r[k] = 1.0 / static_cast<double>(k);
+  return r;
+}();
+
 /// One joint's motion over a lane's last step: a velocity's series, and the position it integrates to.
 struct JointSeries {
-  const double* x;  ///< coefficients of the velocity, Pack::lanes apart
-  double start;     ///< position at the step's start
+  double x[order + 1];  ///< coefficients of the velocity, in the series' units of time
+  double rate;          ///< those units a second
+  double start;         ///< position at the step's start
 
   struct Motion {
     double position, velocity, acceleration, jerk;
   };
   /// @param t  [s] since the step's start
-  [[nodiscard]] Motion at(double t) const {
-    double velocity = x[order * Pack::lanes];
-    double position = velocity * (1.0 / (order + 1));
+  [[nodiscard, gnu::noinline]] Motion at(double t) const {
+    t *= rate;
+    double velocity = x[order];
+    double position = velocity * reciprocals[order + 1];
     double acceleration = 0.0, half_jerk = 0.0;
-    unroll<0, order>([&]<int i>() {
-      constexpr int k = order - 1 - i;
-      const double coefficient = x[k * Pack::lanes];
+    for (int k = order - 1; k >= 0; --k) {
       half_jerk = std::fma(half_jerk, t, acceleration);
       acceleration = std::fma(acceleration, t, velocity);
-      velocity = std::fma(velocity, t, coefficient);
-      position = std::fma(position, t, coefficient * (1.0 / (k + 1)));
-    });
-    return {std::fma(position, t, start), velocity, acceleration, 2.0 * half_jerk};
+      velocity = std::fma(velocity, t, x[k]);
+      position = std::fma(position, t, x[k] * reciprocals[k + 1]);
+    }
+    return {std::fma(position, t, start), velocity * rate, acceleration * (rate * rate),
+            2.0 * half_jerk * (rate * rate * rate)};
   }
 };
 
-inline JointSeries first_joint(const Lanes& lanes, int lane) {
-  return {reinterpret_cast<const double*>(lanes.series.V) + lane, lanes.E_start[lane]};
+/// One lane's series, out of all.
+template <int precision>
+[[gnu::noinline]] void take_lane(const Pack (&x)[precision], const Single (&x_short)[order + 1], int lane,
+                                 double (&out)[order + 1]) {
+  const auto* wide = reinterpret_cast<const char*>(x) + static_cast<std::size_t>(lane) * sizeof(double);
+  const auto* narrow = reinterpret_cast<const char*>(x_short) + static_cast<std::size_t>(lane) * sizeof(float);
+  for (std::size_t k = 0; k < precision; ++k) std::memcpy(&out[k], wide + k * sizeof(Pack), sizeof(double));
+  for (std::size_t k = precision; k <= order; ++k) {
+    float coefficient = 0.0f;
+    std::memcpy(&coefficient, narrow + k * sizeof(Single), sizeof(float));
+    out[k] = static_cast<double>(coefficient);
+  }
 }
-inline JointSeries second_joint(const Lanes& lanes, int lane) {
-  return {reinterpret_cast<const double*>(lanes.series.w) + lane, lanes.q2_start[lane]};
+template <int precision>
+JointSeries first_joint(const Lanes<precision>& lanes, int lane) {
+  JointSeries joint;
+  take_lane(lanes.series.V, lanes.series.V_short, lane, joint.x);
+  joint.rate = lanes.rate_start[lane];
+  joint.start = lanes.E_start[lane];
+  return joint;
+}
+template <int precision>
+JointSeries second_joint(const Lanes<precision>& lanes, int lane) {
+  JointSeries joint;
+  take_lane(lanes.series.w, lanes.series.w_short, lane, joint.x);
+  joint.rate = lanes.rate_start[lane];
+  joint.start = lanes.q2_start[lane];
+  return joint;
 }
 
 /// A joint's motion sampled at both ends of a span's 16 equal parts; 16 at every lane count.
@@ -45,7 +76,7 @@ struct Samples {
 };
 
 /// Samples [from, from + width].
-inline void sample(const JointSeries& joint, double from, double width, Samples& out) {
+[[gnu::noinline]] inline void sample(const JointSeries& joint, double from, double width, Samples& out) {
   alignas(64) static constexpr double sixteenths[Samples::parts] = {
       0.0,      1.0 / 16, 2.0 / 16,  3.0 / 16,  4.0 / 16,  5.0 / 16,  6.0 / 16,  7.0 / 16,
       8.0 / 16, 9.0 / 16, 10.0 / 16, 11.0 / 16, 12.0 / 16, 13.0 / 16, 14.0 / 16, 15.0 / 16};
@@ -54,25 +85,25 @@ inline void sample(const JointSeries& joint, double from, double width, Samples&
     const Pack part = load(sixteenths + i);
     const Pack t0 = fma(part, Pack(width), Pack(from));
     const Pack t1 = fma(part + Pack(1.0 / 16), Pack(width), Pack(from));
-    Pack v0(joint.x[order * Pack::lanes]);
-    Pack p0 = v0 * Pack(1.0 / (order + 1));
+    const Pack x0 = t0 * Pack(joint.rate), x1 = t1 * Pack(joint.rate);
+    Pack v0(joint.x[order]);
+    Pack p0 = v0 * Pack(reciprocals[order + 1]);
     Pack v1 = v0, p1 = p0;
-    unroll<0, order>([&]<int j>() {
-      constexpr int k = order - 1 - j;
-      const Pack x(joint.x[k * Pack::lanes]);
-      const Pack integrated = x * Pack(1.0 / (k + 1));
-      v0 = fma(v0, t0, x);
-      v1 = fma(v1, t1, x);
-      p0 = fma(p0, t0, integrated);
-      p1 = fma(p1, t1, integrated);
-    });
-    const Pack start(joint.start);
+    for (int k = order - 1; k >= 0; --k) {
+      const Pack x(joint.x[k]);
+      const Pack integrated = x * Pack(reciprocals[k + 1]);
+      v0 = fma(v0, x0, x);
+      v1 = fma(v1, x1, x);
+      p0 = fma(p0, x0, integrated);
+      p1 = fma(p1, x1, integrated);
+    }
+    const Pack start(joint.start), rate(joint.rate);
     store(out.before.t + i, t0);
-    store(out.before.velocity + i, v0);
-    store(out.before.position + i, fma(p0, t0, start));
+    store(out.before.velocity + i, v0 * rate);
+    store(out.before.position + i, fma(p0, x0, start));
     store(out.after.t + i, t1);
-    store(out.after.velocity + i, v1);
-    store(out.after.position + i, fma(p1, t1, start));
+    store(out.after.velocity + i, v1 * rate);
+    store(out.after.position + i, fma(p1, x1, start));
   }
 }
 
@@ -144,12 +175,20 @@ struct DriftGuard {
   }
 };
 
-/// The guard's root in (low, high], where it goes from positive to <= 0, to rounding: Halley's method kept in the
-/// bracket, from the chord's root.
+/// The guard's root in (low, high], where it goes from positive to <= 0, to 1e-10 of the part and so to rounding in
+/// the state: Halley's method kept in the bracket.
+///
+/// @param g_low, g_high  the guard at the bracket's ends
+/// @param bend           its second difference over parts of the bracket's width, for the first guess
 template <class Guard>
-double refine(const Guard& guard, const JointSeries& joint, double low, double high, double g_low, double g_high) {
+[[gnu::noinline]] double refine(const Guard& guard, const JointSeries& joint, double low, double high, double g_low,
+                                double g_high, double bend) {
+  // The parabola through the bracket's ends, by one Newton step from the chord's root; in shares of the width.
   const double width = high - low;
-  double t = std::fma(width, g_low / (g_low - g_high), low);
+  const double slope = g_high - g_low;
+  const double chord = -g_low / slope;
+  const double share = chord - 0.5 * bend * chord * (chord - 1.0) / (slope + bend * (chord - 0.5));
+  double t = std::fma(0.0 < share && share < 1.0 ? share : chord, width, low);
   for (int i = 0; i < 60; ++i) {
     const JointSeries::Motion motion = joint.at(t);
     const double g = guard.value(motion.position, motion.velocity);
@@ -157,8 +196,9 @@ double refine(const Guard& guard, const JointSeries& joint, double low, double h
     const double rate = guard.rate(motion);
     const double change = 2.0 * g * rate / (2.0 * rate * rate - g * guard.curvature(motion));
     double next = t - change;
-    // Convergence is cubic: after a change this small the next would be lost in rounding.
-    if (std::abs(change) <= 1e-5 * width) return std::clamp(next, low, high);
+    // Convergence is cubic: what is left after a change this small is 1e-8 of the part, times how curved it is,
+    // squared.
+    if (std::abs(change) <= 2e-3 * width) return std::clamp(next, low, high);
     if (!(low < next && next < high)) {
       next = 0.5 * (low + high);
       if (!(low < next && next < high)) return high;
@@ -174,11 +214,13 @@ inline constexpr int deepest = 3;
 /// The first time in (from, from + width] at which the guard goes from positive to <= 0; infinity where it does not.
 ///
 /// @param bend   bound on |second derivative of the velocity| over the step [1/s^2 times its unit]
+/// @param armed  whether the guard has been positive before, so that it fires at `from` if it is <= 0 there
 template <class Guard>
-double first_crossing(const Guard& guard, const JointSeries& joint, double from, double width, double bend,
-                      int depth = 0) {
+[[gnu::noinline]] double first_crossing(const Guard& guard, const JointSeries& joint, double from, double width,
+                                        double bend, bool armed, int depth = 0) {
   Samples s;
   sample(joint, from, width, s);
+  if (armed && guard.value(s.before.position[0], s.before.velocity[0]) <= 0.0) return from;
   const double part = width / Samples::parts;
   Evidence evidence = guard.judge(s, bend * part * part * 0.125, part);
   if (depth == deepest) evidence.uncertain = 0;
@@ -186,10 +228,15 @@ double first_crossing(const Guard& guard, const JointSeries& joint, double from,
   while (suspects != 0) {
     const int i = std::countr_zero(suspects);
     if ((evidence.crossing >> i & 1) != 0) {
-      return refine(guard, joint, s.before.t[i], s.after.t[i], guard.value(s.before.position[i], s.before.velocity[i]),
-                    guard.value(s.after.position[i], s.after.velocity[i]));
+      const double g0 = guard.value(s.before.position[i], s.before.velocity[i]);
+      const double g1 = guard.value(s.after.position[i], s.after.velocity[i]);
+      const int m = i > 0 ? i - 1 : 1;  // the part beside it
+      const double g2 = i > 0 ? guard.value(s.before.position[m], s.before.velocity[m])
+                              : guard.value(s.after.position[m], s.after.velocity[m]);
+      const double second = i > 0 ? g2 - 2.0 * g0 + g1 : g0 - 2.0 * g1 + g2;
+      return refine(guard, joint, s.before.t[i], s.after.t[i], g0, g1, second);
     }
-    const double found = first_crossing(guard, joint, s.before.t[i], part, bend, depth + 1);
+    const double found = first_crossing(guard, joint, s.before.t[i], part, bend, false, depth + 1);
     if (found < Phase::unbounded) return found;
     suspects &= suspects - 1;
   }
@@ -198,17 +245,19 @@ double first_crossing(const Guard& guard, const JointSeries& joint, double from,
 
 /// The first time [s] since the step's start, within the step, at which a guard of the lane's phase fires; infinity
 /// where none does.
-[[gnu::noinline, gnu::flatten]] inline double locate_guard(const Lanes& lanes, int lane) {
+///
+/// @param joint  the one its guards watch: the first of an align, else the second
+/// @param armed  whether its guards have all been positive before
+[[gnu::noinline]] inline double locate_guard(const LaneRows& lanes, int lane, const JointSeries& joint, bool armed) {
   const double h = lanes.h[lane];
   const double bend = lanes.bend[lane] / (h * h);
   if (lanes.radius[lane] >= 0.0) {
-    return first_crossing(AlignGuard{lanes.radius[lane]}, first_joint(lanes, lane), 0.0, h, bend);
+    return first_crossing(AlignGuard{lanes.radius[lane]}, joint, 0.0, h, bend, armed);
   }
-  const JointSeries joint = second_joint(lanes, lane);
   double first = Phase::unbounded;
   const auto consider = [&](const DriftGuard& guard) {
     if (std::abs(guard.bound) < Phase::unbounded) {
-      first = std::min(first, first_crossing(guard, joint, 0.0, h, bend));
+      first = std::min(first, first_crossing(guard, joint, 0.0, h, bend, armed));
     }
   };
   consider({false, 1.0, lanes.q2_low[lane]});

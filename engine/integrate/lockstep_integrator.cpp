@@ -29,7 +29,7 @@ Arrival LockstepIntegrator::advance(const ClosedLoop<double>& loop, const Phase&
   while (!ended) {
     ended = engine_->step() != 0;
     const double to = engine_->arrival(lane_).t;
-    if (observer != nullptr) observer->step(from, to, output);
+    if (observer != nullptr && to > from) observer->step(from, to, output);
     from = to;
   }
   const Arrival arrival = engine_->arrival(lane_);

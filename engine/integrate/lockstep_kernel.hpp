@@ -3,14 +3,18 @@
 
 namespace steerstat::STEERSTAT_ISA {
 
+/// Packs advanced one after another before anyone looks at what has ended, so that code and branch history stay warm.
+inline constexpr int pack_count = 4;
+
+template <int precision>
 class Kernel final : public LockstepEngine {
  public:
   explicit Kernel(double tolerance) : log2_tolerance_(natural_log(margin * tolerance) * elementary::log2_e) {
-    for (int lane = 0; lane < Pack::lanes; ++lane) vacate(lane);
+    for (int lane = 0; lane < lanes(); ++lane) vacate(lane);
   }
 
   [[nodiscard]] InstructionSet instruction_set() const override { return InstructionSet::STEERSTAT_ISA; }
-  [[nodiscard]] int lanes() const override { return Pack::lanes; }
+  [[nodiscard]] int lanes() const override { return pack_count * Pack::lanes; }
 
   void seat(int lane, const ClosedLoop<double>& loop) override {
     const PlantConstants<double>& plant = loop.plant;
@@ -19,14 +23,15 @@ class Kernel final : public LockstepEngine {
     Trial& trial = trials_[lane];
     trial.K = K;
     trial.loop = loop;
-    lanes_.loop.slip[lane] = plant.f2 / plant.inertia;
-    lanes_.loop.mismatch[lane] = K * (plant.moment - nominal.moment) / plant.mass;
-    lanes_.loop.drive[lane] = nominal.mass / plant.mass;
-    lanes_.loop.damping[lane] = plant.f1 / plant.mass;
-    lanes_.loop.belief[lane] = K * nominal.moment / plant.mass;
-    lanes_.loop.ratio[lane] = nominal.moment / nominal.inertia / K;
-    lanes_.scale[lane] = 1.0 / std::abs(K);
-    seated_ |= 1u << lane;
+    const auto [lanes, i] = place(lane);
+    lanes.loop.slip[i] = plant.f2 / plant.inertia;
+    lanes.loop.mismatch[i] = K * (plant.moment - nominal.moment) / plant.mass;
+    lanes.loop.drive[i] = nominal.mass / plant.mass;
+    lanes.loop.damping[i] = plant.f1 / plant.mass;
+    lanes.loop.belief[i] = K * nominal.moment / plant.mass;
+    lanes.loop.ratio[i] = nominal.moment / nominal.inertia / K;
+    lanes.scale[i] = 1.0 / std::abs(K);
+    seated_ |= bit(lane);
   }
 
   void start(int lane, const Phase& phase, double t, const State<double>& x, double t_end) override {
@@ -35,75 +40,91 @@ class Kernel final : public LockstepEngine {
     trial.t_end = t_end;
     trial.cause = Cause::time;
     const double K = trial.K;
-    lanes_.E[lane] = K * (x.q1 - trial.loop.q1_goal);
-    lanes_.V[lane] = K * x.q1_dot;
-    lanes_.q2[lane] = x.q2;
-    lanes_.w[lane] = x.q2_dot;
-    lanes_.t[lane] = 0.0;
-    lanes_.t_end[lane] = t_end - t;
+    const double E = K * (x.q1 - trial.loop.q1_goal);
+    const double V = K * x.q1_dot;
+    const auto [lanes, i] = place(lane);
+    lanes.E[i] = E;
+    lanes.V[i] = V;
+    lanes.q2[i] = x.q2;
+    lanes.w[i] = x.q2_dot;
+    lanes.t[i] = 0.0;
+    lanes.t_end[i] = t_end - t;
+    set_unit(lane, phase.kind == PhaseKind::drift ? 2.0 : 0.25);  // soon corrected by the steps themselves
 
     const bool aligning = phase.kind == PhaseKind::align;
-    lanes_.kp[lane] = aligning ? -trial.loop.kp : 0.0;
-    lanes_.kd[lane] = aligning ? -trial.loop.kd : 0.0;
+    lanes.kp[i] = aligning ? -trial.loop.kp : 0.0;
+    lanes.kd[i] = aligning ? -trial.loop.kd : 0.0;
     const bool cycling = phase.kind == PhaseKind::contraction || phase.kind == PhaseKind::swing;
     const double rate = cycling ? 1.0 / phase.duration : 0.0;
     double factor = cycling ? K * phase.amplitude * rate * rate : 0.0;  // (11)
-    for (std::size_t i = 0; i < 5; ++i) {
+    for (std::size_t k = 0; k < 5; ++k) {
       factor *= rate;
-      lanes_.cycle[i][lane] = cycle_coefficients[i] * factor;
+      lanes.cycle[k][i] = cycle_coefficients[k] * factor;
     }
-    lanes_.radius[lane] = phase.active_tolerance < 0.0 ? -1.0 : std::abs(K) * phase.active_tolerance;
-    lanes_.q2_low[lane] = phase.q2_low;
-    lanes_.q2_high[lane] = phase.q2_high;
-    lanes_.direction[lane] = phase.direction;
-    lanes_.speed_floor[lane] = phase.speed_floor;
+    const double radius = phase.active_tolerance < 0.0 ? -1.0 : std::abs(K) * phase.active_tolerance;
+    lanes.radius[i] = radius;
+    lanes.q2_low[i] = phase.q2_low;
+    lanes.q2_high[i] = phase.q2_high;
+    lanes.direction[i] = phase.direction;
+    lanes.speed_floor[i] = phase.speed_floor;
+    const bool armed = (radius < 0.0 || E * E + V * V > radius * radius) && x.q2 > phase.q2_low &&
+                       x.q2 < phase.q2_high && phase.direction * x.q2_dot > phase.speed_floor;
+    armed_ = (armed_ & ~bit(lane)) | (armed ? bit(lane) : 0);
   }
 
   void vacate(int lane) override {
     const PlantParameters<double> any;
     seat(lane, {constants_of(any), constants_of(any), 0.0, 0.0, 0.0});
     start(lane, Phase{PhaseKind::drift}, 0.0, State<double>{}, 1.0);
-    seated_ &= ~(1u << lane);
+    seated_ &= ~bit(lane);
   }
 
-  [[gnu::flatten]] std::uint32_t step() override {
-    const StepReport report = advance(lanes_, log2_tolerance_);
-    ++counters_.steps;
+  std::uint64_t step() override {
+    std::uint64_t ended = 0, watch = 0, unsound = 0, stalled = 0;
+    for (int pack = 0; pack < pack_count; ++pack) {
+      const StepReport report = advance(packs_[pack], log2_tolerance_);
+      const auto at_its_place = [&](std::uint32_t bits) { return std::uint64_t{bits} << (pack * Pack::lanes); };
+      ended |= at_its_place(report.reached_end);
+      watch |= at_its_place(report.watch);
+      unsound |= at_its_place(report.unsound);
+      stalled |= at_its_place(report.stalled);
+    }
+    counters_.steps += pack_count;
+    counters_.lane_slots += static_cast<std::uint64_t>(lanes());
     counters_.lane_steps += static_cast<std::uint64_t>(std::popcount(seated_));
-    for (std::uint32_t idle = report.reached_end & ~seated_; idle != 0; idle &= idle - 1) {
-      lanes_.t[std::countr_zero(idle)] = 0.0;
-    }
-    std::uint32_t ended = (report.reached_end | report.failed) & seated_;
-    for (std::uint32_t watch = report.watch & ~report.failed & seated_; watch != 0; watch &= watch - 1) {
-      const int lane = std::countr_zero(watch);
-      ++counters_.searches;
-      const double t = locate_guard(lanes_, lane);
-      if (t <= lanes_.h[lane]) {
-        settle(lane, t);
-        trials_[lane].cause = Cause::guard;
-        ended |= 1u << lane;
-      }
-    }
-    for (std::uint32_t failed = report.failed & seated_; failed != 0; failed &= failed - 1) {
-      trials_[std::countr_zero(failed)].cause = Cause::failure;
-    }
+    for_each_lane(ended & ~seated_, [&](int lane) { set_time(lane, 0.0); });
+
+    ended &= seated_ & ~unsound;
+    for_each_lane(watch & seated_ & ~unsound, [&](int lane) {
+      if (search(lane)) ended |= bit(lane);
+    });
+    armed_ |= ~watch;  // every guard of these was positive throughout
+    for_each_lane(stalled & seated_ & ~unsound, [&](int lane) {
+      trials_[lane].cause = Cause::failure;
+      ended |= bit(lane);
+    });
+    for_each_lane(unsound & seated_, [&](int lane) {
+      if (!retry(lane)) ended |= bit(lane);
+    });
     counters_.arrivals += static_cast<std::uint64_t>(std::popcount(ended));
     return ended;
   }
 
   [[nodiscard]] Arrival arrival(int lane) const override {
     const Trial& trial = trials_[lane];
-    const double t = lanes_.t[lane];
-    return {t == lanes_.t_end[lane] ? trial.t_end : trial.t_start + t,
-            {trial.loop.q1_goal + lanes_.E[lane] / trial.K, lanes_.q2[lane], lanes_.V[lane] / trial.K, lanes_.w[lane]},
+    const auto [lanes, i] = place(lane);
+    const double t = lanes.t[i];
+    return {t == lanes.t_end[i] ? trial.t_end : trial.t_start + t,
+            {trial.loop.q1_goal + lanes.E[i] / trial.K, lanes.q2[i], lanes.V[i] / trial.K, lanes.w[i]},
             trial.cause};
   }
 
   [[nodiscard]] State<double> dense_output(int lane, double t) const override {
     const Trial& trial = trials_[lane];
-    const double dt = t - (trial.t_start + lanes_.t_start[lane]);
-    const JointSeries::Motion first = first_joint(lanes_, lane).at(dt);
-    const JointSeries::Motion second = second_joint(lanes_, lane).at(dt);
+    const auto [lanes, i] = place(lane);
+    const double dt = t - (trial.t_start + lanes.t_start[i]);
+    const JointSeries::Motion first = first_joint(lanes, i).at(dt);
+    const JointSeries::Motion second = second_joint(lanes, i).at(dt);
     return {trial.loop.q1_goal + first.position / trial.K, second.position, first.velocity / trial.K, second.velocity};
   }
 
@@ -119,21 +140,76 @@ class Kernel final : public LockstepEngine {
     Cause cause;
   };
 
-  /// Puts a lane to t after its step's start.
-  void settle(int lane, double t) {
-    const JointSeries::Motion first = first_joint(lanes_, lane).at(t);
-    const JointSeries::Motion second = second_joint(lanes_, lane).at(t);
-    lanes_.E[lane] = first.position;
-    lanes_.V[lane] = first.velocity;
-    lanes_.q2[lane] = second.position;
-    lanes_.w[lane] = second.velocity;
-    lanes_.t[lane] = lanes_.t_start[lane] + t;
+  /// Where a lane's columns are.
+  template <class L>
+  struct Place {
+    L& lanes;
+    int column;
+  };
+  Place<Lanes<precision>> place(int lane) { return {packs_[lane / Pack::lanes], lane % Pack::lanes}; }
+  [[nodiscard]] Place<const Lanes<precision>> place(int lane) const {
+    return {packs_[lane / Pack::lanes], lane % Pack::lanes};
+  }
+
+  static std::uint64_t bit(int lane) { return std::uint64_t{1} << lane; }
+
+  template <class Body>
+  static void for_each_lane(std::uint64_t lanes, Body&& body) {
+    for (; lanes != 0; lanes &= lanes - 1) body(std::countr_zero(lanes));
+  }
+
+  void set_time(int lane, double t) {
+    const auto [lanes, i] = place(lane);
+    lanes.t[i] = t;
+  }
+
+  void set_unit(int lane, double unit) {
+    const auto [lanes, i] = place(lane);
+    lanes.unit[i] = unit;
+    lanes.rate[i] = 1.0 / unit;
+  }
+
+  /// Puts a lane to where a guard fired within its last step. @return whether one did
+  bool search(int lane) {
+    ++counters_.searches;
+    const auto [lanes, i] = place(lane);
+    const bool aligning = lanes.radius[i] >= 0.0;
+    const JointSeries watched = aligning ? first_joint(lanes, i) : second_joint(lanes, i);
+    const double t = locate_guard(lanes, i, watched, (armed_ & bit(lane)) != 0);
+    if (!(t <= lanes.h[i])) return false;
+    const JointSeries::Motion at1 = aligning ? watched.at(t) : first_joint(lanes, i).at(t);
+    const JointSeries::Motion at2 = aligning ? second_joint(lanes, i).at(t) : watched.at(t);
+    lanes.E[i] = at1.position;
+    lanes.V[i] = at1.velocity;
+    lanes.q2[i] = at2.position;
+    lanes.w[i] = at2.velocity;
+    lanes.t[i] = lanes.t_start[i] + t;
+    trials_[lane].cause = Cause::guard;
+    return true;
+  }
+
+  /// Takes back a step whose coefficients left the range of single precision, for another in a thousandth of its unit.
+  /// @return false, with the lane's cause set, when that cannot be what is wrong
+  bool retry(int lane) {
+    const auto [lanes, i] = place(lane);
+    const JointSeries first = first_joint(lanes, i);
+    const JointSeries second = second_joint(lanes, i);
+    lanes.E[i] = first.start;
+    lanes.q2[i] = second.start;
+    lanes.V[i] = first.x[0] * first.rate;
+    lanes.w[i] = second.x[0] * second.rate;
+    lanes.t[i] = lanes.t_start[i];
+    set_unit(lane, 0x1p-10 / first.rate);
+    if (lanes.unit[i] > 0x1p-50) return true;
+    trials_[lane].cause = Cause::failure;
+    return false;
   }
 
   double log2_tolerance_;
-  std::uint32_t seated_{0};
-  Lanes lanes_{};
-  Trial trials_[Pack::lanes]{};
+  std::uint64_t seated_{0};
+  std::uint64_t armed_{0};  ///< lanes whose guards have all been positive in this phase
+  Lanes<precision> packs_[pack_count]{};
+  Trial trials_[pack_count * Pack::lanes]{};
 };
 
 }  // namespace steerstat::STEERSTAT_ISA

@@ -13,7 +13,10 @@
 namespace steerstat::STEERSTAT_ISA {
 
 LockstepEngine* make_kernel(double tolerance) {
-  return new Kernel(tolerance);
+  // Where single precision's rounding is well below what the tolerance lets a step truncate; see Expansion.
+  constexpr double finest_mixed = 5e-10;
+  if (tolerance >= finest_mixed) return new Kernel<mixed>(tolerance);
+  return new Kernel<full>(tolerance);
 }
 
 }  // namespace steerstat::STEERSTAT_ISA

@@ -1,10 +1,7 @@
-// One integration step of a pack of trials, each with its own plant, law, time and step size. Included once by a source
-// compiled for an instruction set, after the series; see core/instruction_set.hpp.
+// One integration step of a pack of trials, each with its own plant, law, time and step size. Included once by a
+// source compiled for an instruction set, after the series; see core/instruction_set.hpp.
 
 namespace steerstat::STEERSTAT_ISA {
-
-/// Order of the Taylor series of the velocities.
-inline constexpr int order = 12;
 
 /// One double a lane.
 struct alignas(64) Row {
@@ -20,153 +17,226 @@ inline void store(Row& row, Pack x) {
 }
 
 /// The trials under way, a column a lane: state, phase and constants, in the scaled coordinates of LoopConstants.
-struct Lanes {
+struct LaneRows {
   Row E, q2, V, w;          ///< state at the step's start
   Row t, t_end;             ///< [s] since the phase's start; where the phase ends unless a guard fires
-  LoopConstants<Row> loop;  ///< of the trial
+  Row unit, rate;           ///< the series' unit of time [s], a power of two, and its reciprocal
+  LoopConstants<Row> loop;  ///< of the trial, per second
   Row scale;                ///< 1 / |K|, what a unit of E or V is in m or m/s
-  Row kp, kd;               ///< of LawSeries, zero unless aligning
-  Row cycle[5];             ///< b = sum of cycle[i] t^(i + 1), t since the phase's start; zero unless in a cycle
+  Row kp, kd;               ///< of LawSeries, per second; zero unless aligning
+  Row cycle[5];             ///< b = sum of cycle[i] t^(i + 1), t [s] since the phase's start; zero unless in a cycle
   Row radius;               ///< align: the guard's tolerance times |K|; negative: no such guard
   Row q2_low, q2_high, direction, speed_floor;  ///< drift: the guards of Phase
 
-  // Results of the step: where it began, the series, the step sizes and the bound for the guards.
-  Row E_start, q2_start, t_start;
-  Expansion<order> series;
+  // Of the last step: where it began, its size, and how far its velocities strayed from straight lines.
+  Row E_start, q2_start, t_start, rate_start;
   Row h;     ///< [s]
-  Row bend;  ///< bound on h^2 |second derivative| of the watched velocity (V aligning, else w) over the step
+  Row bend;  ///< bound on h^2 |second derivative| of the watched velocity (V aligning, else w)
+};
+
+template <int precision>
+struct Lanes : LaneRows {
+  Expansion<precision> series;  ///< of the last step
 };
 
 /// What a step did, a bit a lane.
 struct StepReport {
   std::uint32_t reached_end;  ///< came to t_end
   std::uint32_t watch;        ///< a guard may have fired: the search decides
-  std::uint32_t failed;       ///< non-finite, or a step below 1e-12 s
+  std::uint32_t unsound;      ///< the series is not finite
+  std::uint32_t stalled;      ///< a step below 1e-12 s
 };
 
-/// The positions' growth over [0, t]: the integral of sum x[k] t^k.
-inline Pack integral(const Pack (&x)[order + 1], Pack t) {
-  Pack sum = x[order] * Pack(1.0 / (order + 1));
-  unroll<0, order>([&]<int i>() {
-    constexpr int k = order - 1 - i;
-    sum = fma(sum, t, x[k] * Pack(1.0 / (k + 1)));
+/// The growth of the integral of a series over [0, t].
+template <int precision>
+Pack integral(const Pack (&x)[precision], const Single (&x_short)[order + 1], Pack t, Single t_short) {
+  Pack sum(0.0);
+  if constexpr (precision < full) {
+    Single tail = x_short[order] * Single(1.0 / (order + 1));
+    unroll<0, order - precision>([&]<int i>() __attribute__((always_inline)) {
+      constexpr int k = order - 1 - i;
+      tail = fma(tail, t_short, x_short[k] * Single(1.0 / (k + 1)));
+    });
+    sum = widen(tail);
+  }
+  unroll<0, precision>([&]<int i>() __attribute__((always_inline)) {
+    constexpr int k = precision - 1 - i;
+    sum = k == order ? x[k] * Pack(1.0 / (k + 1)) : fma(sum, t, x[k] * Pack(1.0 / (k + 1)));
   });
   return sum * t;
 }
 
-inline Pack value(const Pack (&x)[order + 1], Pack t) {
-  Pack sum = x[order];
-  unroll<0, order>([&]<int i>() { sum = fma(sum, t, x[order - 1 - i]); });
+template <int precision>
+Pack value(const Pack (&x)[precision], const Single (&x_short)[order + 1], Pack t, Single t_short) {
+  Pack sum(0.0);
+  if constexpr (precision < full) {
+    Single tail = x_short[order];
+    unroll<0, order - precision>([&]<int i>() __attribute__((always_inline)) {
+      tail = fma(tail, t_short, x_short[order - 1 - i]);
+    });
+    sum = widen(tail);
+  }
+  unroll<0, precision>([&]<int i>() __attribute__((always_inline)) {
+    constexpr int k = precision - 1 - i;
+    sum = k == order ? x[k] : fma(sum, t, x[k]);
+  });
   return sum;
 }
 
 /// The cycle's polynomial about time t of its phase: coefficients of (t + dt)^i collected in dt.
-inline void shift_cycle(const Lanes& lanes, Pack t, Pack (&out)[6]) {
-  Pack p[6] = {
-      Pack(0.0),           load(lanes.cycle[0]), load(lanes.cycle[1]), load(lanes.cycle[2]), load(lanes.cycle[3]),
-      load(lanes.cycle[4])};
-  unroll<0, 5>([&]<int i>() {  // Horner's scheme once a coefficient
-    unroll<0, 5 - i>([&]<int j>() { p[4 - j] = fma(p[5 - j], t, p[4 - j]); });
+inline void shift_cycle(const LaneRows& lanes, Pack t, Pack (&out)[6]) {
+  out[0] = Pack(0.0);
+  unroll<0, 5>([&]<int i>() __attribute__((always_inline)) { out[i + 1] = load(lanes.cycle[i]); });
+  unroll<0, 5>([&]<int i>() __attribute__((always_inline)) {  // Horner's scheme once a coefficient
+    unroll<0, 5 - i>([&]<int j>() __attribute__((always_inline)) { out[4 - j] = fma(out[5 - j], t, out[4 - j]); });
   });
-  unroll<0, 6>([&]<int i>() { out[i] = p[i]; });
 }
 
-/// The largest step [s] whose first omitted terms stay within the tolerance, from the last two coefficients of both
-/// velocities [Jorba & Zou 2005].
-inline Pack step_size(const Lanes& lanes, Pack log2_tolerance) {
-  const Pack scale = load(lanes.scale);
+/// Log2 of the largest step, in the series' units, whose last terms stay within the tolerance, from the last two
+/// coefficients of both velocities [Jorba & Zou 2005].
+template <int precision>
+Pack log2_step(const Expansion<precision>& series, Pack scale, Pack rate, Pack log2_tolerance) {
+  const auto& [V, w, V_short, w_short] = series;
   const Pack least(1e-290);
-  const auto& [V, w] = lanes.series;
-  const Pack last = max(max(abs(V[order]) * scale, abs(w[order])), least);
-  const Pack before = max(max(abs(V[order - 1]) * scale, abs(w[order - 1])), least);
-  return coarse_exp2(min((log2_tolerance - coarse_log2(last)) * Pack(1.0 / order),
-                         (log2_tolerance - coarse_log2(before)) * Pack(1.0 / (order - 1))));
+  const auto allowance = [&](int k) {
+    const Pack size = max(abs(widen(V_short[k])) * scale, abs(widen(w_short[k]))) * rate;
+    return (log2_tolerance - coarse_log2(max(size, least))) * Pack(1.0 / k);
+  };
+  return min(allowance(order), allowance(order - 1));
 }
 
 /// Whether the chord from (E0, V0) to (E1, V1) stays further than `limit` from the origin (sufficient, nearly
 /// necessary).
-inline Mask chord_avoids(Pack E0, Pack V0, Pack E1, Pack V1, Pack limit) {
+template <class Real>
+auto chord_avoids(Real E0, Real V0, Real E1, Real V1, Real limit) {
   // Every point P + x (Q - P) has at least min((P + Q) P, (P + Q) Q) / |P + Q| along P + Q.
-  const Pack pp = fma(E0, E0, V0 * V0);
-  const Pack qq = fma(E1, E1, V1 * V1);
-  const Pack pq = fma(E0, E1, V0 * V1);
-  const Pack reach = min(pp, qq) + pq;
-  const Pack sum = fma(Pack(2.0), pq, pp + qq);
-  return (Pack(0.0) < reach) & (limit * limit * sum < reach * reach);
+  const Real pp = fma(E0, E0, V0 * V0);
+  const Real qq = fma(E1, E1, V1 * V1);
+  const Real pq = fma(E0, E1, V0 * V1);
+  const Real reach = min(pp, qq) + pq;
+  const Real sum = fma(Real(2.0), pq, pp + qq);
+  return (Real(0.0) < reach) & (limit * limit * sum < reach * reach);
 }
 
-/// Whether no guard can have fired in the step: a proof, not a sample.
+/// Bounds on how far a step's motion strays from straight lines.
+struct Bend {
+  Single velocity;  ///< h^2 |second derivative| of the watched velocity, at most
+  Single position;  ///< the same of its integral
+};
+
+/// @param aligning  watch V there, w elsewhere
+/// @param t         the step in the series' units, @param rate  those units a second
+template <int precision>
+Bend bound_bend(const Expansion<precision>& series, Mask aligning, Single t, Single rate) {
+  const auto watched = [&](int k) { return abs(select(aligning, series.V_short[k], series.w_short[k])); };
+  Single sum = watched(order) * Single(1.0 * order * (order - 1));
+  unroll<0, order - 2>([&]<int i>() __attribute__((always_inline)) {
+    constexpr int k = order - 1 - i;
+    sum = fma(sum, t, watched(k) * Single(1.0 * k * (k - 1)));
+  });
+  sum = sum * (t * t) * Single(1.0 + 1e-5);  // with the roundings of this sum
+  return {sum * rate, fma(watched(1), t, sum) * t};
+}
+
+/// Whether align's guard cannot have fired in the step: a proof, not a sample, in single precision with its roundings
+/// allowed for.
 ///
 /// Over a time d a smooth x(t) stays within d^2 max|x''| / 8 of the chord between its ends.
 ///
-/// @param middle  E and V half-way through the step
-inline Mask proves_quiet(const Lanes& lanes, Pack E, Pack q2, Pack V, Pack w, Pack middle_E, Pack middle_V,
-                         Pack velocity_bend, Pack position_bend) {
+/// @param E0, V0, E1, V1  at the step's ends
+template <int precision>
+Mask stays_out(const Expansion<precision>& series, Single E0, Single V0, Single E1, Single V1, Single radius, Bend bend,
+               Single t, Single rate) {
+  const Single half = t * Single(0.5);
+  Single V = series.V_short[order];
+  Single E = V * Single(1.0 / (order + 1));
+  unroll<0, order>([&]<int i>() __attribute__((always_inline)) {
+    constexpr int k = order - 1 - i;
+    V = fma(V, half, series.V_short[k]);
+    E = fma(E, half, series.V_short[k] * Single(1.0 / (k + 1)));
+  });
+  E = fma(E, half, E0);
+  V = V * rate;
+  const Single slack = (bend.velocity + bend.position) * Single(1.0 / 32);
+  const Single rounding =
+      (abs(E0) + abs(V0) + abs(series.V_short[0] * t) + bend.velocity + bend.position) * Single(2e-6);
+  const Single limit = radius + slack + rounding;
+  return chord_avoids(E0, V0, E, V, limit) & chord_avoids(E, V, E1, V1, limit);
+}
+
+/// Whether no guard can have fired in the step.
+template <int precision>
+Mask proves_quiet(const Lanes<precision>& lanes, Pack E, Pack q2, Pack V, Pack w, Pack t, Pack rate, Bend bend) {
   const Pack radius = load(lanes.radius);
-  const Pack limit = fma(velocity_bend + position_bend, Pack(1.0 / 32), radius);
-  const Mask far = (radius < Pack(0.0)) | (chord_avoids(load(lanes.E), load(lanes.V), middle_E, middle_V, limit) &
-                                           chord_avoids(middle_E, middle_V, E, V, limit));
+  const Mask far =
+      (radius < Pack(0.0)) | stays_out(lanes.series, narrow(load(lanes.E)), narrow(load(lanes.V)), narrow(E), narrow(V),
+                                       narrow(radius), bend, narrow(t), narrow(rate));
   const Pack q20 = load(lanes.q2), w0 = load(lanes.w);
   const Pack direction = load(lanes.direction);
-  const Pack position_slack = position_bend * Pack(1.0 / 8);
+  const Pack position_slack = widen(bend.position) * Pack(1.0 / 8);
   const Mask inside =
       (load(lanes.q2_low) < min(q20, q2) - position_slack) & (max(q20, q2) + position_slack < load(lanes.q2_high));
-  const Mask fast = load(lanes.speed_floor) < fnma(velocity_bend, Pack(1.0 / 8), min(direction * w0, direction * w));
+  const Mask fast =
+      load(lanes.speed_floor) < fnma(widen(bend.velocity), Pack(1.0 / 8), min(direction * w0, direction * w));
   return far & inside & fast;
 }
 
 /// Advances every lane by one step of its own size. The state, t and the results are written; lanes that `watch` names
 /// hold the state at the step's end, and the search corrects it where a guard fired.
-[[gnu::noinline, gnu::flatten]] inline StepReport advance(Lanes& lanes, double log2_tolerance) {
-  const Pack t = load(lanes.t);
+template <int precision>
+[[gnu::noinline, gnu::flatten]] StepReport advance(Lanes<precision>& lanes, double log2_tolerance) {
+  const Pack t = load(lanes.t), unit = load(lanes.unit), rate = load(lanes.rate);
   const Pack E0 = load(lanes.E), q20 = load(lanes.q2), V0 = load(lanes.V), w0 = load(lanes.w);
   LawSeries law;
-  law.kp = load(lanes.kp);
-  law.kd = load(lanes.kd);
+  Pack power = unit * unit;
+  law.kp = load(lanes.kp) * power;
+  law.kd = load(lanes.kd) * unit;
   shift_cycle(lanes, t, law.cycle);
-  const LoopConstants<Pack> loop{load(lanes.loop.slip),    load(lanes.loop.mismatch), load(lanes.loop.drive),
-                                 load(lanes.loop.damping), load(lanes.loop.belief),   load(lanes.loop.ratio)};
-  expand<order>(loop, law, E0, q20, V0, w0, lanes.series);
-  const auto& [series_V, series_w] = lanes.series;
+  unroll<0, 6>([&]<int k>() __attribute__((always_inline)) {
+    law.cycle[k] = law.cycle[k] * power;
+    power = power * unit;
+  });
+  const LoopConstants<Pack> loop{load(lanes.loop.slip) * unit,    load(lanes.loop.mismatch), load(lanes.loop.drive),
+                                 load(lanes.loop.damping) * unit, load(lanes.loop.belief),   load(lanes.loop.ratio)};
+  expand(loop, law, E0, q20, V0 * unit, w0 * unit, lanes.series);
+  const auto& [series_V, series_w, V_short, w_short] = lanes.series;
 
-  const Pack allowed = step_size(lanes, Pack(log2_tolerance));
+  // A step may grow eightfold, no more: single precision does not reach further.
+  const Pack log2 = min(log2_step(lanes.series, load(lanes.scale), rate, Pack(log2_tolerance)), Pack(3.0));
+  const Pack allowed = coarse_exp2(log2) * unit;
   const Pack t_end = load(lanes.t_end);
   const Pack remaining = t_end - t;
   const Mask ends = remaining <= allowed;
   const Pack h = min(remaining, allowed);
 
-  const Pack E = E0 + integral(series_V, h);
-  const Pack q2 = q20 + integral(series_w, h);
-  const Pack V = value(series_V, h);
-  const Pack w = value(series_w, h);
+  const Pack x = h * rate;
+  const Single x_short = narrow(x);
+  const Pack E = E0 + integral(series_V, V_short, x, x_short);
+  const Pack q2 = q20 + integral(series_w, w_short, x, x_short);
+  const Pack V = value(series_V, V_short, x, x_short) * rate;
+  const Pack w = value(series_w, w_short, x, x_short) * rate;
 
-  // h^2 |x''| of the watched velocity and of its integral, at most.
-  const Mask aligning = Pack(0.0) <= load(lanes.radius);
-  Pack velocity_bend(0.0);
-  unroll<0, order - 1>([&]<int i>() {
-    constexpr int k = order - i;
-    velocity_bend = fma(velocity_bend, h, abs(select(aligning, series_V[k], series_w[k])) * Pack(1.0 * k * (k - 1)));
-  });
-  velocity_bend = velocity_bend * h;
-  const Pack position_bend = (velocity_bend + abs(select(aligning, series_V[1], series_w[1]))) * (h * h);
-  velocity_bend = velocity_bend * h;
+  const Bend bend = bound_bend(lanes.series, Pack(0.0) <= load(lanes.radius), x_short, narrow(rate));
+  const Mask quiet = proves_quiet(lanes, E, q2, V, w, x, rate, bend);
+  const Mask sound = (abs(V_short[order]) < Single(1e30)) & (abs(w_short[order]) < Single(1e30)) &
+                     (abs(V_short[order - 1]) < Single(1e30)) & (abs(w_short[order - 1]) < Single(1e30));
+  const Mask stalled = allowed < Pack(1e-12);
 
-  const Pack half = h * Pack(0.5);
-  const Mask quiet = proves_quiet(lanes, E, q2, V, w, E0 + integral(series_V, half), value(series_V, half),
-                                  velocity_bend, position_bend);
-  const Mask sound =
-      (abs(series_V[order]) < Pack(1e290)) & (abs(series_w[order]) < Pack(1e290)) & (Pack(1e-12) <= allowed);
   store(lanes.E_start, E0);
   store(lanes.q2_start, q20);
   store(lanes.t_start, t);
+  store(lanes.rate_start, rate);
   store(lanes.h, h);
-  store(lanes.bend, velocity_bend);
+  store(lanes.bend, widen(bend.velocity));
   store(lanes.E, E);
   store(lanes.q2, q2);
   store(lanes.V, V);
   store(lanes.w, w);
   store(lanes.t, select(ends, t_end, t + h));
-  return {bits(ends), bits(!quiet), bits(!sound)};
+  const Pack change = round_even(max(log2, Pack(-10.0)));
+  store(lanes.unit, unit * two_to(change));
+  store(lanes.rate, rate * two_to(-change));
+  return {bits(ends), bits(!quiet), bits(!sound), bits(stalled)};
 }
 
 }  // namespace steerstat::STEERSTAT_ISA

@@ -12,6 +12,17 @@ template <int first, int last, class Body>
   }
 }
 
+/// Order of the Taylor series of the velocities.
+inline constexpr int order = 12;
+
+/// The precision of an expansion: how many coefficients are in double precision, the rest being in single.
+///
+/// A step's k-th term is about the (k / order)-th power of its tolerance. From the seventh on single precision's
+/// rounding, 2^-24 of them, is a sixth of what a step of the default tolerance truncates, and twice as many trials are
+/// advanced by an instruction; finer tolerances need double throughout.
+inline constexpr int mixed = 7;
+inline constexpr int full = order + 1;
+
 /// What the closed loop of a trial is made of: (1)-(2) of the true plant under the linearising force of the nominal
 /// one.
 ///
@@ -20,6 +31,9 @@ template <int first, int last, class Body>
 ///     V' = mismatch y' + drive b - damping V + belief (sin^2(q2) (V' - ratio b) - slip y)
 ///     q2_ddot = sin(q2) V' - slip q2_dot
 /// which takes four and a half convolutions an order and no division of series.
+///
+/// The series runs in units of time of its own, a power of two near the step, so that its coefficients are of the size
+/// of its terms; rates are then per that unit.
 template <class Real>
 struct LoopConstants {
   Real slip;      ///< [1/s] f2 / (I2 + m2 d2^2)
@@ -30,106 +44,166 @@ struct LoopConstants {
   Real ratio;     ///< K nominal / K
 };
 
-/// The law for b as a series: b = kp E + kd V + sum of cycle[k] t^k, t [s] since the step's start.
+/// The law for b as a series: b = kp E + kd V + sum of cycle[k] t^k, t since the step's start.
 struct LawSeries {
   Pack kp, kd;    ///< minus the gains; zero unless aligning
   Pack cycle[6];  ///< zero unless in a cycle
 };
 
 /// Taylor coefficients of the velocities about a step's start; the positions are their integrals.
-template <int order>
+template <int precision>
 struct Expansion {
-  Pack V[order + 1];
-  Pack w[order + 1];  ///< of q2_dot
+  Pack V[precision], w[precision];                ///< the first, in double precision
+  Single V_short[order + 1], w_short[order + 1];  ///< all, in single precision
 };
 
-/// Expands the closed loop about the state (E, q2, V, w).
-template <int order>
-[[gnu::noinline, gnu::flatten]] void expand(const LoopConstants<Pack>& loop, const LawSeries& law, Pack E, Pack q2,
-                                            Pack V0, Pack w0, Expansion<order>& out) {
-  Pack s[order + 1], c[order + 1], S2[order + 1];  // sin q2, cos q2, sin^2 q2
-  Pack y[order + 1];
-  Pack dV[order], X[order];  // V', V' - ratio b
-  Pack(&V)[order + 1] = out.V;
-  Pack(&w)[order + 1] = out.w;
-
-  const SinCos<Pack> angle = sincos(q2);
-  s[0] = angle.sin;
-  c[0] = angle.cos;
-  S2[0] = s[0] * s[0];
-  V[0] = V0;
-  w[0] = w0;
-  y[0] = s[0] * w0;
-
+/// The recurrence for the coefficients, in either precision.
+///
+/// What an order waits for is V'[n - 1] of the order before: the sums are arranged so that four operations, one after
+/// the other, lead from there to V'[n], by way of w, z and Y.
+template <class Real>
+struct Recurrence {
+  Real E, minus_slip, ratio, kp, kd;
   // V' stands on both sides of its equation; these are the factors once it is solved for.
-  const Pack minus_slip = -loop.slip;
-  const Pack D = Pack(1.0) / fnma(S2[0], loop.mismatch + loop.belief, Pack(1.0));
-  const Pack by_dy = D * loop.mismatch;
-  const Pack by_B = by_dy * s[0];
-  const Pack by_G = D * loop.belief;
-  const Pack by_y = by_G * minus_slip;
-  const Pack by_b = fnma(by_G * S2[0], loop.ratio, D * loop.drive);
-  const Pack by_V = -(D * loop.damping);
-  Pack by_Y = by_dy;
+  Real by_dy, by_Y, by_B, by_w, by_G, by_X, by_y, by_b, by_V;
+  Real s[order + 1], c[order + 1], S2[order];  // sin q2, cos q2, sin^2 q2
+  Real y[order + 1], V[order + 1], w[order + 1];
+  Real dV[order], X[order];  // V', V' - ratio b
 
-  unroll<0, order>([&]<int n>() {
+  /// From the coefficients up to n, those of n + 1.
+  template <int n>
+  [[gnu::always_inline]] void extend(const Pack (&cycle)[6]) {
     constexpr double step = 1.0 / (n + 1);
-    Pack b;
-    if constexpr (n == 0)
-      b = fma(law.kp, E, fma(law.kd, V[0], law.cycle[0]));
-    else if constexpr (n < 6)
-      b = fma(law.kd, V[n], fma(law.kp, V[n - 1] * Pack(1.0 / n), law.cycle[n]));
-    else
-      b = fma(law.kd, V[n], law.kp * (V[n - 1] * Pack(1.0 / n)));
+    Real b;
+    if constexpr (n < 6) {
+      static_assert(mixed > 6, "the cycle's polynomial is in double precision");
+      if constexpr (n == 0)
+        b = fma(kd, V[0], fma(kp, E, cycle[0]));
+      else
+        b = fma(kd, V[n], fma(kp, V[n - 1] * Real(1.0 / n), cycle[n]));
+    } else {
+      b = fma(kd, V[n], kp * (V[n - 1] * Real(1.0 / n)));
+    }
 
-    // The convolutions side by side, so that a coefficient is loaded once, and the newest coefficients last.
-    Pack B, G, Y, square;  // (sin(q2) V', sin^2(q2) (V' - ratio b) but for the unknown V'[n]; y[n + 1] but for w[n + 1]
-    Pack z = c[n] * w[0];  // cos(q2) q2_dot
-    unroll<0, n>([&]<int i>() {
-      constexpr int k = n - i;
-      if constexpr (i == 0) {
-        B = s[n] * dV[0];
-        Y = s[n] * w[1];
-        square = s[n] * s[0];
-      } else {
-        B = fma(s[k], dV[n - k], B);
-        Y = fma(s[k], w[n + 1 - k], Y);
-        if constexpr (k > n - k) square = fma(s[k], s[n - k], square);
-        if constexpr (i == 1)
-          G = S2[k] * X[n - k];
-        else
-          G = fma(S2[k], X[n - k], G);
-      }
-      z = fma(c[k - 1], w[n + 1 - k], z);
+    // The convolutions side by side, so that a coefficient is loaded once, and from the middle outwards, so that the
+    // newest coefficients, at both ends, are waited for last.
+    Real B, G, Y, z,
+        square;  // sin(q2) V', sin^2(q2) (V' - ratio b) but for V'[n]; y[n + 1] but for w[n + 1] and s[n + 1]
+    unroll<0, n>([&]<int i>() __attribute__((always_inline)) {
+      constexpr int k = (n + 1) / 2 + (i % 2 == 1 ? (i + 1) / 2 : -(i / 2));
+      B = i == 0 ? s[k] * dV[n - k] : fma(s[k], dV[n - k], B);
+      Y = i == 0 ? s[k] * w[n + 1 - k] : fma(s[k], w[n + 1 - k], Y);
+      z = i == 0 ? c[k - 1] * w[n + 1 - k] : fma(c[k - 1], w[n + 1 - k], z);
+      if constexpr (1 < k && k < n) G = i == 0 ? S2[k] * X[n - k] : fma(S2[k], X[n - k], G);
+      if constexpr (2 * k > n) square = i == 1 - n % 2 ? s[k] * s[n - k] : fma(s[k], s[n - k], square);
     });
+    z = n == 0 ? c[0] * w[0] : fma(c[n], w[0], z);
+    Real early = fma(by_V, V[n], by_w * w[n]);
+    Real late = by_y * y[n];
     if constexpr (n > 0) {
       square = square + square;
       if constexpr (n % 2 == 0) square = fma(s[n / 2], s[n / 2], square);
       S2[n] = square;
-      G = n == 1 ? square * X[0] : fma(square, X[0], G);
-      B = fma(minus_slip, w[n], B);
-    } else {
-      B = minus_slip * w[0];
+      if constexpr (n > 1) {
+        G = n == 2 ? square * X[0] : fma(square, X[0], G);
+        late = fma(by_X, X[n - 1], fma(by_G, G, late));  // by_X = by_G S2[1]
+      } else {
+        by_X = by_G * square;
+        late = fma(by_X, X[0], late);
+      }
+      early = fma(by_B, B, early);
     }
-    s[n + 1] = z * Pack(step);
-    c[n + 1] = y[n] * Pack(-step);
-    if constexpr (n == 0)
-      Y = s[1] * w[0];
-    else
-      Y = fma(s[n + 1], w[0], Y);
-
-    Pack early = fma(by_V, V[n], by_b * b);
-    early = fma(by_B, B, early);
-    Pack late = by_y * y[n];
-    if constexpr (n > 0) late = fma(by_G, G, late);
-    const Pack rate = fma(by_Y, Y, early + late);
+    early = fma(by_b, b, early);
+    Y = n == 0 ? z * w[0] : fma(z, w[0] * Real(step), Y);  // the term of s[n + 1] = z step
+    const Real rate = fma(by_Y, Y, early + late);
     by_Y = by_Y + by_dy;
+    s[n + 1] = z * Real(step);
+    c[n + 1] = y[n] * Real(-step);
     dV[n] = rate;
-    X[n] = fnma(loop.ratio, b, rate);
-    V[n + 1] = rate * Pack(step);
-    w[n + 1] = fma(s[0], rate, B) * Pack(step);
+    X[n] = fnma(ratio, b, rate);
+    V[n + 1] = rate * Real(step);
+    B = n == 0 ? minus_slip * w[0] : fma(minus_slip, w[n], B);
+    w[n + 1] = fma(s[0] * Real(step), rate, B * Real(step));
     y[n + 1] = fma(s[0], w[n + 1], Y);
+  }
+};
+
+/// The recurrence in single precision, from where one in double precision has come.
+[[gnu::always_inline]] inline void shorten(const Recurrence<Pack>& from, Recurrence<Single>& to) {
+  to.minus_slip = narrow(from.minus_slip);
+  to.ratio = narrow(from.ratio);
+  to.kp = narrow(from.kp);
+  to.kd = narrow(from.kd);
+  to.by_dy = narrow(from.by_dy);
+  to.by_Y = narrow(from.by_Y);
+  to.by_B = narrow(from.by_B);
+  to.by_w = narrow(from.by_w);
+  to.by_X = narrow(from.by_X);
+  to.by_G = narrow(from.by_G);
+  to.by_y = narrow(from.by_y);
+  to.by_b = narrow(from.by_b);
+  to.by_V = narrow(from.by_V);
+  constexpr int n = mixed - 1;
+  unroll<0, n + 1>([&]<int k>() __attribute__((always_inline)) {
+    to.s[k] = narrow(from.s[k]);
+    to.c[k] = narrow(from.c[k]);
+    to.V[k] = narrow(from.V[k]);
+    to.w[k] = narrow(from.w[k]);
   });
+  unroll<0, n>([&]<int k>() __attribute__((always_inline)) {
+    if constexpr (k > 0) to.S2[k] = narrow(from.S2[k]);
+    to.dV[k] = narrow(from.dV[k]);
+    to.X[k] = narrow(from.X[k]);
+  });
+  to.y[n] = narrow(from.y[n]);
+}
+
+/// Expands the closed loop about the state (E, q2, V, w).
+template <int precision>
+[[gnu::noinline, gnu::flatten]] void expand(const LoopConstants<Pack>& loop, const LawSeries& law, Pack E, Pack q2,
+                                            Pack V, Pack w, Expansion<precision>& out) {
+  Recurrence<Pack> r;
+  const SinCos<Pack> angle = sincos(q2);
+  r.s[0] = angle.sin;
+  r.c[0] = angle.cos;
+  r.S2[0] = r.s[0] * r.s[0];
+  r.E = E;
+  r.V[0] = V;
+  r.w[0] = w;
+  r.y[0] = r.s[0] * w;
+  r.minus_slip = -loop.slip;
+  r.ratio = loop.ratio;
+  r.kp = law.kp;
+  r.kd = law.kd;
+  const Pack D = Pack(1.0) / fnma(r.S2[0], loop.mismatch + loop.belief, Pack(1.0));
+  r.by_dy = D * loop.mismatch;
+  r.by_Y = r.by_dy;
+  r.by_B = r.by_dy * r.s[0];
+  r.by_w = r.by_B * r.minus_slip;
+  r.by_G = D * loop.belief;
+  r.by_y = r.by_G * r.minus_slip;
+  r.by_b = fnma(r.by_G * r.S2[0], loop.ratio, D * loop.drive);
+  r.by_V = -(D * loop.damping);
+  unroll<0, precision - 1>([&]<int n>() __attribute__((always_inline)) { r.template extend<n>(law.cycle); });
+  unroll<0, precision>([&]<int k>() __attribute__((always_inline)) {
+    out.V[k] = r.V[k];
+    out.w[k] = r.w[k];
+  });
+
+  if constexpr (precision == full) {
+    unroll<0, full>([&]<int k>() __attribute__((always_inline)) {
+      out.V_short[k] = narrow(r.V[k]);
+      out.w_short[k] = narrow(r.w[k]);
+    });
+  } else {
+    Recurrence<Single> tail;
+    shorten(r, tail);
+    unroll<precision - 1, order>([&]<int n>() __attribute__((always_inline)) { tail.template extend<n>(law.cycle); });
+    unroll<0, order + 1>([&]<int k>() __attribute__((always_inline)) {
+      out.V_short[k] = tail.V[k];
+      out.w_short[k] = tail.w[k];
+    });
+  }
 }
 
 }  // namespace steerstat::STEERSTAT_ISA

@@ -36,15 +36,15 @@ bool LockstepRunner::carry_on(TrialStream& stream, int lane, double t, const Sta
 }
 
 void LockstepRunner::run(TrialStream& stream) {
-  std::uint32_t busy = 0;
+  std::uint64_t busy = 0;
   for (int lane = 0; lane < engine_->lanes(); ++lane) {
     if (take_next(stream, lane))
-      busy |= 1u << lane;
+      busy |= std::uint64_t{1} << lane;
     else
       engine_->vacate(lane);
   }
   while (busy != 0) {
-    for (std::uint32_t ended = engine_->step(); ended != 0; ended &= ended - 1) {
+    for (std::uint64_t ended = engine_->step(); ended != 0; ended &= ended - 1) {
       const int lane = std::countr_zero(ended);
       const Seat& seat = seats_[static_cast<std::size_t>(lane)];
       const Arrival arrival = engine_->arrival(lane);
@@ -57,7 +57,7 @@ void LockstepRunner::run(TrialStream& stream) {
       }
       if (!goes_on && !take_next(stream, lane)) {
         engine_->vacate(lane);
-        busy &= ~(1u << lane);
+        busy &= ~(std::uint64_t{1} << lane);
       }
     }
   }
