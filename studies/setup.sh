@@ -39,7 +39,7 @@ as_root() {
   elif command -v sudo >/dev/null; then
     sudo "$@"
   else
-    echo "$1 needs root, and there is no sudo; run this as root, or install by hand: apt-get install ${missing[*]}" >&2
+    echo "installing packages needs root, and there is no sudo; run this as root, or install them: ${missing[*]}" >&2
     return 1
   fi
 }
