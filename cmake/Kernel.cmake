@@ -1,0 +1,23 @@
+# Compiles a source for an instruction set; see engine/core/instruction_set.hpp. Kernels are optimised in every build, for
+# their inline functions must not come out of line. They are straight-line arithmetic, which the sanitizers take many
+# minutes to instrument, so only what calls them is. Orders and lanes are ints there. GCC 12 takes the undefined operand
+# inside some AVX-512 intrinsics for a mistake of ours.
+#
+#   steerstat_kernels(STEM SOURCES_VARIABLE)   appends STEM_avx512.cpp and so on, those this processor family may have
+function(steerstat_kernels stem sources)
+  set(flags -O2 -Wno-sign-conversion -Wno-uninitialized -Wno-maybe-uninitialized)
+  if(STEERSTAT_SANITIZE)
+    list(APPEND flags -fno-sanitize=all)
+  endif()
+  set(kernels ${stem}_portable.cpp)
+  set_source_files_properties(${stem}_portable.cpp PROPERTIES COMPILE_OPTIONS "${flags}")
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    list(APPEND flags -mavx2 -mfma -mbmi2)
+    list(APPEND kernels ${stem}_avx2.cpp)
+    set_source_files_properties(${stem}_avx2.cpp PROPERTIES COMPILE_OPTIONS "${flags}")
+    list(APPEND flags -mavx512f -mavx512dq -mavx512vl -mavx512bw)
+    list(APPEND kernels ${stem}_avx512.cpp)
+    set_source_files_properties(${stem}_avx512.cpp PROPERTIES COMPILE_OPTIONS "${flags}")
+  endif()
+  set(${sources} ${${sources}} ${kernels} PARENT_SCOPE)
+endfunction()

@@ -1,0 +1,16 @@
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+#include "core/elementary.hpp"
+
+#define STEERSTAT_ISA avx2
+#include "core/pack_avx2.hpp"
+#include "pack_values_source.hpp"
