@@ -15,6 +15,7 @@
 #include "core/errors.hpp"
 #include "core/version.hpp"
 #include "output.hpp"
+#include "simd_choice.hpp"
 #include "study/nearest.hpp"
 
 namespace steerstat {
@@ -31,9 +32,9 @@ Exit codes: 0 done, 2 bad usage or bad spec (nothing is written), 4 the run fail
 130 interrupted, with what was finished kept. COMMAND --help tells more.)";
 
 std::string version() {
-  return fmt::format("steerstat {}\nbuilt with {} ({}), HDF5 {}, SUNDIALS {}, oneTBB {}", engine_version(),
+  return fmt::format("steerstat {}\nbuilt with {} ({}), HDF5 {}, SUNDIALS {}, oneTBB {}\n{}", engine_version(),
                      STEERSTAT_COMPILER, STEERSTAT_BUILD_TYPE, STEERSTAT_HDF5_VERSION, STEERSTAT_SUNDIALS_VERSION,
-                     STEERSTAT_TBB_VERSION);
+                     STEERSTAT_TBB_VERSION, simd_text());
 }
 
 /// "; did you mean X?" where a known word is near to what was typed, else "".

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "progress_display.hpp"
 #include "report/readable.hpp"
 #include "report/summary.hpp"
+#include "simd_choice.hpp"
 #include "spec_file.hpp"
 #include "store/result_file.hpp"
 
@@ -23,6 +25,9 @@ namespace {
 
 constexpr const char* epilogue = R"(The summary goes to standard output as a table; progress and messages go to standard
 error. Without -o the trials themselves are not kept.
+
+After the last trial some are computed again with SUNDIALS at a hundredth of the tolerance, and the summary says how
+many agree: 16, or as many as the spec's "audit" asks for. The outcomes are the same bits with every --simd.
 
 The first interrupt (Ctrl-C, SIGTERM) finishes the trials in flight, writes what is done with "complete" false and
 exits 130; a second one ends at once.
@@ -38,6 +43,7 @@ struct Request {
   std::optional<std::string> result;   ///< without it the trials are not kept
   std::optional<std::string> summary;  ///< "-": standard output, in the table's place
   unsigned threads{0};
+  std::optional<std::string> simd;  ///< without it the best that this machine runs
   bool no_progress{false};
 
   [[nodiscard]] bool prints_json() const { return summary == "-"; }
@@ -70,10 +76,12 @@ void check_outputs(const Request& request) {
   for (const std::string& output : outputs) require_writable(output);
 }
 
-StudyResult run_trials(const Study& study, const Request& request, const Interruption& interruption) {
+StudyResult run_trials(const Study& study, const Request& request, InstructionSet simd,
+                       const Interruption& interruption) {
   ProgressDisplay display(request.no_progress ? ProgressStyle::none : progress_style(), interruption.token());
   RunOptions options;
   options.threads = request.threads;
+  options.simd = simd;
   options.stop = interruption.token();
   options.on_progress = [&display](const Progress& progress) { display.show(progress); };
   return run_study(study, options);
@@ -108,17 +116,24 @@ bool write_outputs(const Request& request, const Study& study, const StudyResult
 }
 
 ExitCode run(const Request& request) {
+  const InstructionSet simd = request.simd ? choose_simd(*request.simd) : best_instruction_set();
   const Study study = read_study(request.spec);
   check_outputs(request);
   const Interruption interruption;  // to the end: an interrupt must not cost the outputs of a run that is over
-  const StudyResult result = run_trials(study, request, interruption);
+  const StudyResult result = run_trials(study, request, simd, interruption);
   const bool written = write_outputs(request, study, result);
   if (!result.complete) {
     tell(fmt::format("interrupted after {} of {} trials{}", readable_count(result.trials.index.size()),
                      readable_count(Plan(study).trials()), request.result ? "" : "; without -o they are not kept"));
   }
+  const std::uint64_t audited = result.audit.trials.size();
+  const std::uint64_t to_audit = std::min<std::uint64_t>(study.audited_trials, result.trials.index.size());
+  if (result.complete && audited < to_audit) {
+    tell(fmt::format("interrupted during the audit, after {} of {} trials; the study itself is complete",
+                     readable_count(audited), readable_count(to_audit)));
+  }
   if (!written) return ExitCode::run_failed;
-  return result.complete ? ExitCode::done : ExitCode::interrupted;
+  return result.complete && audited == to_audit ? ExitCode::done : ExitCode::interrupted;
 }
 
 }  // namespace
@@ -137,6 +152,10 @@ void add_run(CLI::App& program, ExitCode& exit_code) {
   command->add_option("--threads", request->threads, "Worker threads, 1 to 1024; one a core unless given")
       ->type_name("N")
       ->check(CLI::Range(1U, 1024U).description(""));
+  command
+      ->add_option("--simd", request->simd,
+                   "Instruction set for lockstep: avx512, avx2 or portable; the best unless given")
+      ->type_name("NAME");
   command->add_flag("--no-progress", request->no_progress, "Do not show progress");
   command->footer(epilogue);
   command->callback([request, &exit_code] { exit_code = run(*request); });

@@ -85,6 +85,22 @@ TEST_P(Interruption, TheSecondSignalEndsTheProcessAtOnceAndLeavesNoFile) {
   EXPECT_THAT(scratch.names(), ElementsAre("spec.json"));
 }
 
+TEST_P(Interruption, DuringTheAuditKeepsTheWholeStudyAndExitsWith130) {
+  const Scratch scratch;
+  const std::string spec = scratch.file("spec.json", R"({"plant": {"f1": 0.01, "f2": {"uniform": [0.03, 0.05]}},
+      "sampling": {"trials": 20000}, "audit": {"trials": 20000}})");
+  Process process(STEERSTAT_PROGRAM, {"run", spec, "-o", scratch / "out.h5"}, on_a_terminal());
+  ASSERT_TRUE(process.shows("100 %"));
+  process.send(GetParam());
+  const Ending ending = process.wait();
+  EXPECT_EQ(ending.exit_code, 130);
+  EXPECT_THAT(ending.err, HasSubstr("interrupted during the audit"));
+  const StoredStudy stored = read_result(scratch / "out.h5");
+  EXPECT_TRUE(stored.result.complete);
+  EXPECT_EQ(stored.result.trials.index.size(), 20000U);
+  EXPECT_LT(stored.result.audit.trials.size(), 20000U);
+}
+
 TEST_P(Interruption, AfterTheLastTrialCostsNothing) {
   const Scratch scratch;
   const std::string spec = scratch.file("spec.json", R"({"horizon": 1})");

@@ -68,6 +68,21 @@ TEST(RunCommand, ShowGivesTheSummaryOfTheRun) {
   EXPECT_EQ(figures(table.out), figures(run.out)) << "all but the last paragraph, on performance";
 }
 
+TEST(RunCommand, AuditsSixteenTrialsOfAStudyThatDoesNotSayHowMany) {
+  const Scratch scratch;
+  std::string text = perturbed;
+  text.replace(text.find("cvode"), 5, "lockstep");
+  const std::string spec = scratch.file("spec.json", text);
+  const Ending run = steerstat({"run", spec, "-o", scratch / "out.h5", "--summary", scratch / "out.json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Json audit = Json::parse(read_file(scratch / "out.json")).at("audit");
+  EXPECT_EQ(audit.at("trials"), 16);
+  EXPECT_EQ(audit.at("agree"), 16);
+  EXPECT_EQ(audit.at("disagree"), Json::array());
+  EXPECT_THAT(run.out, HasSubstr("Audit  16 of 16 trials agree with SUNDIALS at tolerance 1e-11"));
+  EXPECT_EQ(Json::parse(steerstat({"show", scratch / "out.h5", "--json"}).out).at("audit"), audit);
+}
+
 TEST(RunCommand, WithoutAnOutputOnlyPrintsTheSummary) {
   const Scratch scratch;
   const std::string spec = scratch.file("spec.json", R"({"name": "single", "horizon": 1})");

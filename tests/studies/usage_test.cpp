@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/instruction_set.hpp"
 #include "core/version.hpp"
 #include "process.hpp"
 
@@ -29,6 +30,8 @@ TEST(Usage, VersionNamesTheEngineTheCompilerAndTheLibraries) {
   EXPECT_EQ(version.exit_code, 0);
   EXPECT_THAT(version.out, ::testing::StartsWith("steerstat " + std::string(engine_version()) + "\n"));
   EXPECT_THAT(version.out, ::testing::ContainsRegex("HDF5 [0-9]+\\.[0-9]+"));
+  EXPECT_THAT(version.out, ::testing::ContainsRegex("lockstep built for .*portable; (avx512|avx2|portable) here"));
+  EXPECT_THAT(version.out, HasSubstr("; " + std::string(name_of(best_instruction_set())) + " here"));
   EXPECT_THAT(version.out, ::testing::ContainsRegex("SUNDIALS [0-9]+\\.[0-9]+"));
 }
 
@@ -51,6 +54,10 @@ TEST(Usage, EveryMistakeExitsWithTwoAndSaysWhatIsWrong) {
       {{"run", spec, "--threads", "-1"}, "--threads"},
       {{"run", spec, "--threads", "1025"}, "--threads"},
       {{"run", spec, "--threads", "two"}, "--threads"},
+      {{"run", spec, "--simd", "mmx"}, "there is no instruction set 'mmx'; this machine runs "},
+      {{"run", spec, "--simd", ""}, "there is no instruction set ''"},
+      {{"run", spec, "--simd", "AVX2"}, "there is no instruction set 'AVX2'"},
+      {{"run", spec, "--simd"}, "--simd"},
       {{"run", spec, "-o"}, "--output"},
       {{"run", spec, "-o", "-"}, "name a file"},
       {{"run", spec, "-o", spec}, "is the spec itself"},
@@ -77,6 +84,21 @@ TEST(Usage, ThreadsMayBeOneToAThousandAndTwentyFour) {
   const std::string spec = scratch.file("spec.json", R"({"horizon": 0.1})");
   for (const char* threads : {"1", "1024"}) {
     EXPECT_EQ(steerstat({"run", spec, "--threads", threads}).exit_code, 0) << threads;
+  }
+}
+
+TEST(Usage, AnInstructionSetThatThisMachineLacksExitsWithTwoAndTheOthersRun) {
+  const Scratch scratch;
+  const std::string spec = scratch.file("spec.json", R"({"horizon": 1})");
+  for (const std::string_view name : instruction_set_names) {
+    const Ending run = steerstat({"run", spec, "--simd", std::string(name), "--summary", "-"});
+    if (supports(*instruction_set_named(name))) {
+      EXPECT_EQ(run.exit_code, 0) << run.err;
+      EXPECT_THAT(run.out, HasSubstr("\"simd\": \"" + std::string(name) + "\""));
+    } else {
+      EXPECT_EQ(run.exit_code, 2);
+      EXPECT_THAT(run.err, HasSubstr("this machine does not run " + std::string(name) + "; it runs "));
+    }
   }
 }
 
