@@ -56,10 +56,9 @@ double lanes_in_pack(InstructionSet set, double tolerance) {
 
 }  // namespace
 
-Anatomy dissect_lockstep(InstructionSet set, double tolerance) {
-  constexpr int repetitions = 5;
+Anatomy dissect_lockstep(InstructionSet set, double tolerance, double seconds, int repetitions) {
   const auto make_lockstep = [&] { return make_runner({IntegratorChoice::Method::lockstep, tolerance}, set); };
-  const std::uint64_t trials = trials_for(1.0, make_lockstep, 1);
+  const std::uint64_t trials = trials_for(seconds, make_lockstep, 1);
   const Plan plan(combined_study(trials));
   Anatomy anatomy{};
   std::vector<double> cpu;

@@ -40,7 +40,8 @@ struct Anatomy {
   std::vector<Function> functions;
 };
 
-Anatomy dissect_lockstep(InstructionSet set, double tolerance);
+/// @param seconds  of one repetition
+Anatomy dissect_lockstep(InstructionSet set, double tolerance, double seconds, int repetitions);
 
 /// The share of the peak that `operations` a lane-step in `ns` come to: the time they would take at the peak over the
 /// time they take, single precision counted at its own peak.

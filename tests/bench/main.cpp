@@ -21,9 +21,15 @@ namespace {
 
 constexpr double wanted_error = 1e-7;  // [s] median in settling time, what all are made to achieve
 constexpr double finest = 1e-13;       // tolerance of the references
-constexpr std::uint64_t reference_trials = 500;
-constexpr double seconds = 1.0;  // of one repetition
-constexpr int repetitions = 7;
+
+/// How long to measure.
+struct Effort {
+  std::uint64_t reference_trials;
+  double seconds;  // of one repetition
+  int repetitions;
+};
+constexpr Effort thorough{400, 0.7, 5};
+constexpr Effort quick{100, 0.1, 1};
 
 using Method = std::function<MakeRunner(double tolerance)>;
 
@@ -69,15 +75,15 @@ void print(const std::string& text) {
 }
 
 /// The references' outcomes: SUNDIALS' at the finest tolerance, after showing how others' are from them.
-std::vector<TrialOutcome> make_reference() {
+std::vector<TrialOutcome> make_reference(const Effort& effort) {
   print(fmt::format("\nReference: SUNDIALS at {:.0e}, {} trials; how far others are from it at their finest\n", finest,
-                    reference_trials));
-  const std::vector<TrialOutcome> reference = run_trials(reference_trials, cvode()(finest)).outcomes;
+                    effort.reference_trials));
+  const std::vector<TrialOutcome> reference = run_trials(effort.reference_trials, cvode()(finest)).outcomes;
   std::vector<Named> others{{"lockstep", lockstep_on(best_instruction_set())}};
   others.insert(others.end(), peers().begin() + 1, peers().end());
   TextTable table({{"", TextTable::Align::left}, {"tolerance"}, {"settling error [s]"}, {"agree"}});
   for (const auto& [name, method] : others) {
-    const Accuracy a = accuracy_of(run_trials(reference_trials, method(finest)).outcomes, reference);
+    const Accuracy a = accuracy_of(run_trials(effort.reference_trials, method(finest)).outcomes, reference);
     table.add_row({{name},
                    {fmt::format("{:.0e}", finest)},
                    {fmt::format("{:.1e}", a.settling_error)},
@@ -87,12 +93,12 @@ std::vector<TrialOutcome> make_reference() {
   return reference;
 }
 
-std::vector<Contender> contenders(const std::vector<TrialOutcome>& reference) {
+std::vector<Contender> contenders(const std::vector<TrialOutcome>& reference, const Effort& effort) {
   std::vector<Contender> all;
   const auto add = [&](const std::string& name, double tolerance, const MakeRunner& make, unsigned most_threads,
                        const Accuracy& accuracy) {
     for (unsigned threads = 1; threads <= most_threads; ++threads) {
-      all.push_back({name, tolerance, make, threads, accuracy, trials_for(seconds, make, threads)});
+      all.push_back({name, tolerance, make, threads, accuracy, trials_for(effort.seconds, make, threads)});
     }
   };
   // The bits are the same on every set, and so is the tolerance.
@@ -111,13 +117,13 @@ std::vector<Contender> contenders(const std::vector<TrialOutcome>& reference) {
   return all;
 }
 
-void print_contest(const std::vector<TrialOutcome>& reference) {
-  const std::vector<Contender> all = contenders(reference);
-  const std::vector<Rate> rates = measure_rates(all, repetitions);
+void print_contest(const std::vector<TrialOutcome>& reference, const Effort& effort) {
+  const std::vector<Contender> all = contenders(reference, effort);
+  const std::vector<Rate> rates = measure_rates(all, effort.repetitions);
   print(
       fmt::format("\nTrials a second: medians of {} repetitions in turns. \"Slower\": how many times lockstep's rate on"
                   "\none thread, {}, at the same error, is that of the line, by CPU time.\n",
-                  repetitions, name_of(best_instruction_set())));
+                  effort.repetitions, name_of(best_instruction_set())));
   TextTable table({{"", TextTable::Align::left},
                    {"tolerance"},
                    {"settling error [s]"},
@@ -146,7 +152,7 @@ std::string percent(double share) {
   return fmt::format("{:.1f} %", 100.0 * share);
 }
 
-void print_anatomy() {
+void print_anatomy(const Effort& effort) {
   const double tolerance = IntegratorChoice{}.tolerance;
   std::vector<TextTable::Column> columns{{"", TextTable::Align::left}};
   std::vector<Anatomy> parts;
@@ -154,7 +160,7 @@ void print_anatomy() {
   for (const InstructionSet set : sets_here()) {
     columns.push_back({std::string(name_of(set))});
     peaks.push_back(measure_fma_peak(set));
-    parts.push_back(dissect_lockstep(set, tolerance));
+    parts.push_back(dissect_lockstep(set, tolerance, effort.seconds, effort.repetitions));
   }
   TextTable table(columns);
   const auto add = [&](const std::string& title, auto&& text) {
@@ -204,10 +210,10 @@ void print_anatomy() {
   }
 }
 
-void print_all() {
+void print_all(const Effort& effort) {
   print(description_of_machine());
-  print_contest(make_reference());
-  print_anatomy();
+  print_anatomy(effort);
+  print_contest(make_reference(effort), effort);
 }
 
 }  // namespace
@@ -219,10 +225,12 @@ int main(int argc, char** argv) {
       steerstat::bench::run_to_be_counted();
     } else if (argc == 2 && std::string_view(argv[1]) == "machine") {
       std::fputs(steerstat::bench::description_of_machine().c_str(), stdout);
+    } else if (argc == 2 && std::string_view(argv[1]) == "quick") {
+      steerstat::bench::print_all(steerstat::bench::quick);
     } else if (argc == 1) {
-      steerstat::bench::print_all();
+      steerstat::bench::print_all(steerstat::bench::thorough);
     } else {
-      std::fputs("usage: steerstat_bench [instructions | machine]\n", stderr);
+      std::fputs("usage: steerstat_bench [quick | instructions | machine]\n", stderr);
       return 2;
     }
   } catch (const std::exception& failure) {
