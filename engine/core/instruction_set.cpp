@@ -2,14 +2,17 @@
 
 namespace steerstat {
 
+// What is asked here is what cmake/Kernel.cmake compiles for.
 bool supports(InstructionSet set) {
 #if defined(__x86_64__)
   switch (set) {
     case InstructionSet::avx512:
       return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
-             __builtin_cpu_supports("fma") != 0;
+             __builtin_cpu_supports("avx512vl") != 0 && __builtin_cpu_supports("avx512bw") != 0 &&
+             supports(InstructionSet::avx2);
     case InstructionSet::avx2:
-      return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0;
+      return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0 &&
+             __builtin_cpu_supports("bmi2") != 0;
     case InstructionSet::portable:
       return true;
   }

@@ -61,7 +61,7 @@ class LockstepEngine {
   Counters counters_;
 };
 
-/// @param tolerance  local error per step, relative to max(1, |state|)
+/// @param tolerance  bound on a step's local error in each velocity [m/s, rad/s]; a step aims at an eighth of it
 /// @param set        one that supports(set)
 std::unique_ptr<LockstepEngine> make_lockstep_engine(double tolerance, InstructionSet set);
 

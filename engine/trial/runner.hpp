@@ -16,7 +16,7 @@ struct IntegratorChoice {
   static constexpr std::array<std::string_view, 2> method_names{"lockstep", "cvode"};
 
   Method method{Method::lockstep};
-  double tolerance{1e-9};  ///< local error per step, relative to max(1, |state|)
+  double tolerance{1e-9};  ///< of a step's local error [m/s, rad/s]; each engine says how it takes it
 
   friend bool operator==(const IntegratorChoice&, const IntegratorChoice&) = default;
 };
