@@ -7,27 +7,29 @@ namespace steerstat::bench::BENCH_ISA {
 namespace {
 
 /// As many as hide the latency of two units at four to five cycles.
-constexpr int chains = 14;
+constexpr int chains = 12;
 constexpr std::int64_t rounds = 2'000'000;
 
 template <class Number, int lanes>
 double run_chains(double& sink) {
   typedef Number Vector __attribute__((vector_size(sizeof(Number) * lanes)));
   const Number one = static_cast<Number>(sink);  // not known when compiled
-  Vector factor{}, term{}, sum[chains];
+  Vector factor{}, term{};
   for (int lane = 0; lane < lanes; ++lane) {
     factor[lane] = one;
     term[lane] = one - one;
   }
-  for (Vector& s : sum) s = factor;
-  for (std::int64_t i = 0; i < rounds; ++i) {
-#pragma GCC unroll 16
-    for (int k = 0; k < chains; ++k) {
-      sum[k] = sum[k] * factor + term;  // contracted: this source is compiled with -ffp-contract=fast
-      __asm__ volatile("" : "+v"(sum[k]));
-    }
+  // A variable a chain: an array would stay in memory.
+  Vector a = factor, b = a, c = a, d = a, e = a, f = a, g = a, h = a, i = a, j = a, k = a, l = a;
+  const auto fuse = [&](Vector & x) __attribute__((always_inline)) {
+    x = x * factor + term;  // contracted: this source is compiled with -ffp-contract=fast
+    __asm__ volatile("" : "+v"(x));
+  };
+  for (std::int64_t round = 0; round < rounds; ++round) {
+    fuse(a), fuse(b), fuse(c), fuse(d), fuse(e), fuse(f), fuse(g), fuse(h), fuse(i), fuse(j), fuse(k), fuse(l);
   }
-  for (const Vector& s : sum) sink += static_cast<double>(s[0] - one);
+  const Vector sum = a + b + c + d + e + f + g + h + i + j + k + l;
+  sink += static_cast<double>(sum[0] - chains * one);
   return 2.0 * lanes * chains * static_cast<double>(rounds);
 }
 
