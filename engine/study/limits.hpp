@@ -18,8 +18,9 @@ inline constexpr std::size_t most_explicit_trials = 100'000;
 /// A discrete distribution has at most this many values.
 inline constexpr std::size_t most_discrete_values = 10'000;
 
-/// At most this many trajectories are retained, of the failed trials and of the first ones each.
-inline constexpr std::uint64_t most_trajectories = 10'000;
+/// At most this many trajectories are retained, of the failed trials and of the first ones each: a run holds them in
+/// memory, up to half a megabyte a piece.
+inline constexpr std::uint64_t most_trajectories = 1'000;
 
 /// A study's name has at most this many characters.
 inline constexpr std::size_t longest_name = 100;
