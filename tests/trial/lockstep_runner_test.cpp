@@ -31,7 +31,9 @@ std::vector<TrialParameters> combined_trials(std::uint64_t first, std::uint64_t 
   std::ifstream file(path);
   std::ostringstream text;
   text << file.rdbuf();
-  const Plan plan(decode_study(text.str(), {}));
+  Study study = decode_study(text.str(), {});
+  study.sampling.trials = first + count;  // the draws do not depend on how many there are
+  const Plan plan(study);
   std::vector<TrialParameters> trials;
   for (std::uint64_t i = first; i < first + count; ++i) trials.push_back(plan.parameters(i));
   return trials;
