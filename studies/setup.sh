@@ -3,7 +3,7 @@
 # source directory.
 
 # What the program is built from.
-program_packages=(cmake g++ libcli11-dev libfmt-dev libhdf5-dev librandom123-dev libssl-dev libsundials-dev libtbb-dev
+program_packages=(cmake g++ libboost-dev libcli11-dev libfmt-dev libhdf5-dev librandom123-dev libssl-dev libsundials-dev libtbb-dev
   ninja-build nlohmann-json3-dev)
 
 logs=build/logs  # of everything that is not shown

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 
 namespace steerstat {
 
@@ -12,12 +14,18 @@ struct ProportionInterval {
   double level;  ///< e.g. 0.95
 };
 
-/// Wilson's score interval [Wilson 1927], defined at 0 and at `trials` successes.
+/// Wilson's score interval [Wilson 1927], defined at 0 and at `trials` successes. Its coverage is the level on average
+/// over the proportion, and falls below it at some.
 ///
 /// @param successes  <= trials
 /// @param trials     > 0
 /// @param level      in (0, 1)
 /// @throws std::invalid_argument outside those ranges
 ProportionInterval wilson_interval(std::uint64_t successes, std::uint64_t trials, double level);
+
+/// The exact interval of [Clopper and Pearson 1934]: the proportions that neither one-sided binomial test at
+/// (1 - level) / 2 rejects. Its coverage is never below the level, so it is wider than Wilson's. Closed at 0 and at
+/// `trials` successes. Parameters and errors as of wilson_interval().
+ProportionInterval clopper_pearson_interval(std::uint64_t successes, std::uint64_t trials, double level);
 
 }  // namespace steerstat

@@ -32,6 +32,7 @@ LIBRARIES = [
     ("HDF5", r"(hdf5|H5)\w*\.h", "only in store/", r"engine/store/.*"),
     ("SUNDIALS", r"(sundials|cvodes?|arkode|idas?|kinsol|nvector|sunmatrix|sunlinsol|sunnonlinsol)/",
      "only in integrate/", r"engine/integrate/.*"),
+    ("Boost", r"boost/", "only in statistics/", r"engine/statistics/.*"),
     ("nlohmann-json", r"nlohmann/", "only in *_json.*, server/ and studies/",
      r"engine/.*_json\.\w+|server/.*|studies/.*"),
     ("cpp-httplib", r"httplib", "only in server/", r"server/.*"),

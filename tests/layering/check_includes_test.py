@@ -84,6 +84,10 @@ class LibraryRules(unittest.TestCase):
                              "studies/a.cpp"],
                             ["engine/study/study.cpp", "engine/report/json_summary.cpp", "engine/core/json.hpp"])
 
+    def test_boost_is_only_in_statistics(self):
+        self.assert_only_in("<boost/math/distributions/binomial.hpp>", ["engine/statistics/a.cpp"],
+                            ["engine/report/a.cpp", "studies/a.cpp"])
+
     def test_http_is_only_in_the_server(self):
         self.assert_only_in("<httplib.h>", ["server/a.cpp"], ["engine/core/a.cpp", "studies/a.cpp"])
 

@@ -12,7 +12,7 @@
 namespace steerstat {
 namespace {
 
-/// Probability that a binomial count of n trials has its Wilson interval cover the true p; (n + 1) intervals.
+/// Probability that a binomial count of n trials has its interval cover the true p; (n + 1) intervals.
 double coverage(const std::vector<ProportionInterval>& intervals, double p) {
   const auto n = static_cast<double>(intervals.size() - 1);
   double covered = 0.0;
@@ -131,6 +131,47 @@ TEST(WilsonInterval, RefusesWhatIsNoProportion) {
   EXPECT_THROW(wilson_interval(1, 2, 0.0), std::invalid_argument);
   EXPECT_THROW(wilson_interval(1, 2, 1.0), std::invalid_argument);
   EXPECT_THROW(wilson_interval(1, 2, std::numeric_limits<double>::quiet_NaN()), std::invalid_argument);
+}
+
+TEST(ClopperPearsonInterval, IsClosedAtNoneAndAtAllSuccesses) {
+  for (const std::uint64_t n : {1ULL, 2ULL, 10ULL, 997ULL, 1000000ULL}) {
+    for (const double level : {0.5, 0.95, 0.999}) {
+      const double reach = -std::expm1(std::log((1.0 - level) / 2.0) / static_cast<double>(n));
+      const ProportionInterval none = clopper_pearson_interval(0, n, level);
+      EXPECT_EQ(none.estimate, 0.0);
+      EXPECT_EQ(none.low, 0.0);
+      EXPECT_NEAR(none.high, reach, 1e-12 * reach);
+      const ProportionInterval all = clopper_pearson_interval(n, n, level);
+      EXPECT_EQ(all.estimate, 1.0);
+      EXPECT_NEAR(all.low, 1.0 - reach, 1e-13);
+      EXPECT_EQ(all.high, 1.0);
+      EXPECT_EQ(all.level, level);
+    }
+  }
+}
+
+TEST(ClopperPearsonInterval, NeverCoversLessThanItsLevel) {
+  for (const std::uint64_t n : {1ULL, 7ULL, 60ULL}) {
+    std::vector<ProportionInterval> intervals;
+    for (std::uint64_t x = 0; x <= n; ++x) intervals.push_back(clopper_pearson_interval(x, n, 0.95));
+    for (double p = 0.0005; p < 1.0; p += 0.001) EXPECT_GE(coverage(intervals, p), 0.95) << n << ' ' << p;
+  }
+}
+
+TEST(ClopperPearsonInterval, OfVeryManyTrialsIsWilsons) {
+  for (const std::uint64_t x : {300'000'000ULL, 999'000'000ULL}) {
+    const ProportionInterval exact = clopper_pearson_interval(x, 1'000'000'000, 0.95);
+    const ProportionInterval score = wilson_interval(x, 1'000'000'000, 0.95);
+    EXPECT_NEAR(exact.low, score.low, 2e-9);
+    EXPECT_NEAR(exact.high, score.high, 2e-9);
+  }
+}
+
+TEST(ClopperPearsonInterval, RefusesWhatIsNoProportion) {
+  EXPECT_THROW(clopper_pearson_interval(0, 0, 0.95), std::invalid_argument);
+  EXPECT_THROW(clopper_pearson_interval(2, 1, 0.95), std::invalid_argument);
+  EXPECT_THROW(clopper_pearson_interval(1, 2, 0.0), std::invalid_argument);
+  EXPECT_THROW(clopper_pearson_interval(1, 2, 1.0), std::invalid_argument);
 }
 
 }  // namespace

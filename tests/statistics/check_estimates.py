@@ -1,0 +1,72 @@
+#!/usr/bin/env python3
+"""Holds our interval estimators against SciPy's.
+
+Usage: check_estimates.py PRINT_ESTIMATES
+
+Exits 1 after naming every case in which print_estimates' bounds differ from SciPy's by more than rounding.
+"""
+
+import math
+import random
+import subprocess
+import sys
+
+from scipy import optimize, stats
+
+# SciPy finds Clopper-Pearson bounds by a root search to an absolute 2e-12.
+ROOT_TOLERANCE = 4e-12
+
+
+def proportion_cases():
+    for n in (1, 2, 20, 997, 100_000):
+        for x in sorted({0, 1, n // 3, n - 1, n}):
+            for level in (0.5, 0.95, 0.999):
+                interval = stats.binomtest(x, n).proportion_ci
+                yield f"wilson {x} {n} {level}", interval(level, "wilson"), 1e-12
+                yield f"clopper_pearson {x} {n} {level}", interval(level, "exact"), ROOT_TOLERANCE
+
+
+def quantile_cases():
+    generator = random.Random(1)
+    for n in (1, 2, 5, 58, 59, 60, 400, 3000):
+        sample = sorted(generator.lognormvariate(4, 0.5) for _ in range(n))
+        for p in (0.05, 0.5, 0.95, 0.99):
+            for level in (0.6, 0.95, 0.999):
+                tail = (1 - level) / 2
+                low = int(stats.binom.ppf(tail, n, p))  # the least count whose probability passes the tail
+                high = int(stats.binom.isf(tail, n, p)) + 1
+                bounds = (sample[low - 1] if low > 0 else math.nan, sample[high - 1] if high <= n else math.nan)
+                yield f"quantile {p} {level} " + " ".join(map(repr, sample)), bounds, 0.0
+
+
+def mean_cases():
+    for n in (2, 3, 30, 10_000):
+        for level in (0.5, 0.95, 0.999):
+            mean, std = 92.3, 80.2
+            # Not stats.t.ppf: it is right to nine digits only, where the distribution function is to fifteen.
+            t = optimize.brentq(lambda t: stats.t.sf(t, n - 1) - (1 - level) / 2, 0, 1e4, xtol=1e-13, rtol=1e-14)
+            reach = t * std / math.sqrt(n)
+            yield f"mean {mean} {std} {n} {level}", (mean - reach, mean + reach), 1e-11 * (mean + reach)
+
+
+def same(found, expected, tolerance):
+    return (math.isnan(found) and math.isnan(expected)) or abs(found - expected) <= tolerance
+
+
+def main(program):
+    cases = [*proportion_cases(), *quantile_cases(), *mean_cases()]
+    lines = "".join(line + "\n" for line, _, _ in cases)
+    printed = subprocess.run([program], input=lines, capture_output=True, text=True, check=True).stdout.splitlines()
+    if len(printed) != len(cases):
+        sys.exit(f"{len(printed)} answers to {len(cases)} cases")
+    wrong = 0
+    for (line, expected, tolerance), answer in zip(cases, printed):
+        found = [float(word) for word in answer.split()]
+        if not all(same(f, float(e), tolerance) for f, e in zip(found, expected)):
+            wrong += 1
+            print(f"{line[:80]}: {found} is not {[float(e) for e in expected]}")
+    print(f"{len(cases)} cases, {wrong} wrong")
+    sys.exit(wrong > 0)
+
+
+main(*sys.argv[1:])
