@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/normal.hpp"
+#include "statistics/confidence_sequence.hpp"
 
 namespace steerstat {
 namespace {
@@ -44,6 +45,19 @@ ProportionInterval clopper_pearson_interval(std::uint64_t successes, std::uint64
   const double low = successes == 0 ? 0.0 : boost::math::ibeta_inv(x, failures + 1.0, tail);
   const double high = successes == trials ? 1.0 : boost::math::ibetac_inv(x + 1.0, failures, tail);
   return {x / n, low, high, level};
+}
+
+ProportionInterval proportion_interval(ProportionMethod method, std::uint64_t successes, std::uint64_t trials,
+                                       double level) {
+  switch (method) {
+    case ProportionMethod::wilson:
+      return wilson_interval(successes, trials, level);
+    case ProportionMethod::clopper_pearson:
+      return clopper_pearson_interval(successes, trials, level);
+    case ProportionMethod::confidence_sequence:
+      return confidence_sequence(successes, trials, level);
+  }
+  throw std::invalid_argument("proportion_interval: no such method");
 }
 
 }  // namespace steerstat

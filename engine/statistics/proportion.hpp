@@ -28,4 +28,14 @@ ProportionInterval wilson_interval(std::uint64_t successes, std::uint64_t trials
 /// `trials` successes. Parameters and errors as of wilson_interval().
 ProportionInterval clopper_pearson_interval(std::uint64_t successes, std::uint64_t trials, double level);
 
+/// Where a proportion's interval comes from.
+enum class ProportionMethod : std::uint8_t { wilson, clopper_pearson, confidence_sequence };
+inline constexpr std::array<std::string_view, 3> proportion_method_names{"wilson", "clopper_pearson",
+                                                                         "confidence_sequence"};
+
+/// The interval by the method asked for; confidence_sequence() is the one that holds where the number of trials was
+/// decided by looking at them. Parameters and errors as of wilson_interval().
+ProportionInterval proportion_interval(ProportionMethod method, std::uint64_t successes, std::uint64_t trials,
+                                       double level);
+
 }  // namespace steerstat

@@ -48,12 +48,15 @@ QuantileRanks quantile_ranks(std::uint64_t n, double p, double level) {
   return ranks;
 }
 
-SampleInterval quantile_interval(std::span<const double> sorted, double p, double level) {
-  const QuantileRanks ranks = quantile_ranks(sorted.size(), p, level);
+SampleInterval between(std::span<const double> sorted, const QuantileRanks& ranks) {
   SampleInterval interval;
   if (ranks.low) interval.low = sorted[*ranks.low - 1];
   if (ranks.high) interval.high = sorted[*ranks.high - 1];
   return interval;
+}
+
+SampleInterval quantile_interval(std::span<const double> sorted, double p, double level) {
+  return between(sorted, quantile_ranks(sorted.size(), p, level));
 }
 
 SampleInterval mean_interval(double mean, std::optional<double> std, std::uint64_t n, double level) {

@@ -23,6 +23,9 @@ struct QuantileRanks {
   friend bool operator==(const QuantileRanks&, const QuantileRanks&) = default;
 };
 
+/// The interval between the order statistics at `ranks`. @param sorted  (n) ascending, n at least each rank
+SampleInterval between(std::span<const double> sorted, const QuantileRanks& ranks);
+
 /// The distribution-free interval of the p-quantile, by ranks [Conover 1999, section 3.2]: the greatest `low` with
 /// P(B < low) <= (1 - level) / 2 and the least `high` with P(B >= high) <= (1 - level) / 2, B binomial (n, p). Exact:
 /// it covers with at least the level whatever the distribution of the independent values, ties included.

@@ -11,7 +11,7 @@ import random
 import subprocess
 import sys
 
-from scipy import optimize, stats
+from scipy import optimize, special, stats
 
 # SciPy finds Clopper-Pearson bounds by a root search to an absolute 2e-12.
 ROOT_TOLERANCE = 4e-12
@@ -49,12 +49,34 @@ def mean_cases():
             yield f"mean {mean} {std} {n} {level}", (mean - reach, mean + reach), 1e-11 * (mean + reach)
 
 
+def log_mixture_ratio(x, n, p):
+    return special.betaln(x + 0.5, n - x + 0.5) - math.log(math.pi) - special.xlogy(x, p) - special.xlog1py(n - x, -p)
+
+
+def confidence_sequence_cases():
+    for n in (1, 2, 20, 997, 100_000):
+        for x in sorted({0, 1, n // 3, n - 1, n}):
+            for p in (1e-6, 0.3, 0.99):
+                ratio = log_mixture_ratio(x, n, p)
+                yield f"ratio {x} {n} {p}", (ratio, ratio), 1e-12 * (1 + n)  # betaln's rounding
+            for level in (0.5, 0.95, 0.999):
+                excess = lambda p: log_mixture_ratio(x, n, p) + math.log(1 - level)
+                low = optimize.brentq(excess, 1e-300, x / n, xtol=1e-15) if x > 0 else 0
+                high = optimize.brentq(excess, x / n, 1 - 1e-16, xtol=1e-15) if x < n else 1
+                yield f"confidence_sequence {x} {n} {level}", (low, high), 1e-11
+    for n in (0, 1, 10, 200, 3000):
+        for p in (0.05, 0.5, 0.99):
+            accepted = [k for k in range(n + 1) if log_mixture_ratio(k, n, p) < -math.log(0.05)]
+            low, high = accepted[0], accepted[-1] + 1
+            yield f"ranks {n} {p} 0.95", (low if low > 0 else math.nan, high if high <= n else math.nan), 0.0
+
+
 def same(found, expected, tolerance):
     return (math.isnan(found) and math.isnan(expected)) or abs(found - expected) <= tolerance
 
 
 def main(program):
-    cases = [*proportion_cases(), *quantile_cases(), *mean_cases()]
+    cases = [*proportion_cases(), *quantile_cases(), *mean_cases(), *confidence_sequence_cases()]
     lines = "".join(line + "\n" for line, _, _ in cases)
     printed = subprocess.run([program], input=lines, capture_output=True, text=True, check=True).stdout.splitlines()
     if len(printed) != len(cases):

@@ -3,8 +3,12 @@
 //
 //   wilson SUCCESSES TRIALS LEVEL
 //   clopper_pearson SUCCESSES TRIALS LEVEL
+//   confidence_sequence SUCCESSES TRIALS LEVEL
 //   quantile P LEVEL X...                    of a sample in ascending order
+//   ranks N P LEVEL                          of a quantile's confidence sequence
+//   ratio SUCCESSES TRIALS P                 log_mixture_ratio, twice
 //   mean MEAN STD N LEVEL
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <iostream>
@@ -13,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "statistics/confidence_sequence.hpp"
 #include "statistics/proportion.hpp"
 #include "statistics/sample_interval.hpp"
 
@@ -29,13 +34,15 @@ void print(const SampleInterval& interval) {
 bool answer(std::istringstream& words) {
   std::string kind;
   words >> kind;
-  if (kind == "wilson" || kind == "clopper_pearson") {
+  const auto& methods = proportion_method_names;
+  const auto method = std::find(methods.begin(), methods.end(), kind);
+  if (method != methods.end()) {
     std::uint64_t successes = 0;
     std::uint64_t trials = 0;
     double level = 0.0;
     words >> successes >> trials >> level;
-    const auto interval = kind == "wilson" ? wilson_interval : clopper_pearson_interval;
-    const ProportionInterval found = interval(successes, trials, level);
+    const auto which = static_cast<ProportionMethod>(method - methods.begin());
+    const ProportionInterval found = proportion_interval(which, successes, trials, level);
     print({found.low, found.high});
   } else if (kind == "quantile") {
     double p = 0.0;
@@ -44,6 +51,23 @@ bool answer(std::istringstream& words) {
     std::vector<double> sorted;
     for (double x = 0.0; words >> x;) sorted.push_back(x);
     print(quantile_interval(sorted, p, level));
+  } else if (kind == "ranks") {
+    std::uint64_t n = 0;
+    double p = 0.0;
+    double level = 0.0;
+    words >> n >> p >> level;
+    const QuantileRanks ranks = confidence_sequence_ranks(n, p, level);
+    SampleInterval interval;
+    if (ranks.low) interval.low = static_cast<double>(*ranks.low);
+    if (ranks.high) interval.high = static_cast<double>(*ranks.high);
+    print(interval);
+  } else if (kind == "ratio") {
+    std::uint64_t successes = 0;
+    std::uint64_t trials = 0;
+    double p = 0.0;
+    words >> successes >> trials >> p;
+    const double ratio = log_mixture_ratio(successes, trials, p);
+    print({ratio, ratio});
   } else if (kind == "mean") {
     double mean = 0.0;
     double std = 0.0;
