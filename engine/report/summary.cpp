@@ -6,6 +6,7 @@
 #include "core/version.hpp"
 #include "study/plan.hpp"
 #include "study/spec_json.hpp"
+#include "trial/metric.hpp"
 
 namespace steerstat {
 namespace {
@@ -13,14 +14,13 @@ namespace {
 /// What of the trials the statistics are made from.
 struct Tally {
   std::array<std::uint64_t, status_names.size()> outcomes{};
-  std::vector<double> settling_times;  // of converged trials
-  std::vector<double> cycles;          // of converged trials
+  std::array<std::vector<double>, metric_count> samples{};  // (metrics) of the trials that have it
 
   void add(const TrialOutcome& outcome) {
     ++outcomes[static_cast<std::size_t>(outcome.status)];
-    if (outcome.status != Status::converged) return;
-    settling_times.push_back(outcome.settling_time());
-    cycles.push_back(static_cast<double>(outcome.cycles));
+    for (std::size_t i = 0; i < metric_count; ++i) {
+      if (const double value = metrics()[i].value(outcome); !std::isnan(value)) samples[i].push_back(value);
+    }
   }
 
   [[nodiscard]] TrialStatistics statistics() const {
@@ -29,8 +29,7 @@ struct Tally {
     for (const std::uint64_t count : outcomes) result.completed += count;
     const std::uint64_t converged = outcomes[static_cast<std::size_t>(Status::converged)];
     if (result.completed > 0) result.success_rate = wilson_interval(converged, result.completed, success_rate_level);
-    result.settling_time = describe(settling_times);
-    result.cycles = describe(cycles);
+    for (std::size_t i = 0; i < metric_count; ++i) result.metrics[i] = describe(samples[i]);
     return result;
   }
 };

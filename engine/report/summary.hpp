@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/instruction_set.hpp"
@@ -12,6 +13,7 @@
 #include "statistics/sample.hpp"
 #include "study/run.hpp"
 #include "study/study.hpp"
+#include "trial/metric.hpp"
 
 namespace steerstat {
 
@@ -22,9 +24,13 @@ inline constexpr double success_rate_level = 0.95;
 struct TrialStatistics {
   std::uint64_t completed{0};
   std::optional<ProportionInterval> success_rate;
-  std::array<std::uint64_t, status_names.size()> outcomes{};  ///< by Status
-  std::optional<SampleStatistics> settling_time;              ///< [s] converged trials
-  std::optional<SampleStatistics> cycles;                     ///< converged trials
+  std::array<std::uint64_t, status_names.size()> outcomes{};            ///< by Status
+  std::array<std::optional<SampleStatistics>, metric_count> metrics{};  ///< in the order of metrics()
+
+  /// @param metric  name of a metric @throws std::invalid_argument where there is none of that name
+  [[nodiscard]] const std::optional<SampleStatistics>& of(std::string_view metric) const {
+    return metrics[metric_index(metric)];
+  }
 };
 
 /// How far the reference integrator bears a run out.

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/summary.hpp"
+#include "trial/metric.hpp"
 
 namespace steerstat {
 namespace {
@@ -30,15 +31,17 @@ Json sample_json(const std::optional<SampleStatistics>& sample) {
   return {{"mean", value(&SampleStatistics::mean)}, {"std", number_or_null(sample ? sample->std : std::nullopt)},
           {"min", value(&SampleStatistics::min)},   {"p05", value(&SampleStatistics::p05)},
           {"p50", value(&SampleStatistics::p50)},   {"p95", value(&SampleStatistics::p95)},
-          {"p99", value(&SampleStatistics::p99)},   {"max", value(&SampleStatistics::max)}};
+          {"p99", value(&SampleStatistics::p99)},   {"max", value(&SampleStatistics::max)},
+          {"count", sample ? sample->count : 0}};
 }
 
 void append_statistics(Json& json, std::uint64_t requested, const TrialStatistics& statistics) {
   json["trials"] = {{"requested", requested}, {"completed", statistics.completed}};
   json["success_rate"] = success_rate_json(statistics.success_rate);
   json["outcomes"] = outcomes_json(statistics);
-  json["settling_time"] = sample_json(statistics.settling_time);
-  json["cycles"] = sample_json(statistics.cycles);
+  for (std::size_t i = 0; i < metric_count; ++i) {
+    json[std::string(metrics()[i].name)] = sample_json(statistics.metrics[i]);
+  }
 }
 
 Json cells_json(const Summary& summary) {

@@ -101,8 +101,8 @@ std::string sample_text(const TrialStatistics& all, bool colour) {
     row[3].style = bold;
     table.add_row(std::move(row));
   };
-  add("settling time [s]", all.settling_time, 2);
-  add("cycles", all.cycles, 1);
+  add("settling time [s]", all.of("settling_time"), 2);
+  add("cycles", all.of("cycles"), 1);
   return table.text(colour);
 }
 
@@ -111,9 +111,11 @@ std::string single_text(const TrialStatistics& all, bool colour) {
   const auto found = std::find(all.outcomes.begin(), all.outcomes.end(), 1U);
   const auto status = static_cast<Status>(found - all.outcomes.begin());
   std::string text = "  " + styled(std::string(name_of(status)), bold | style_of(status), colour);
-  if (all.settling_time && all.cycles) {
-    text += fmt::format(" after {:.3f} s, {}", all.settling_time->mean,
-                        plural(static_cast<std::uint64_t>(all.cycles->mean), "cycle"));
+  const auto& settling_time = all.of("settling_time");
+  const auto& cycles = all.of("cycles");
+  if (settling_time && cycles) {
+    text += fmt::format(" after {:.3f} s, {}", settling_time->mean,
+                        plural(static_cast<std::uint64_t>(cycles->mean), "cycle"));
   }
   return text + '\n';
 }
@@ -161,9 +163,9 @@ std::vector<TextTable::Cell> cell_row(const Summary::Cell& cell) {
                            int decimals) {
     return TextTable::Cell{sample ? fmt::format("{:.{}f}", (*sample).*member, decimals) : no_data};
   };
-  row.push_back(quantile(statistics.settling_time, &SampleStatistics::p50, 2));
-  row.push_back(quantile(statistics.settling_time, &SampleStatistics::p95, 2));
-  row.push_back(quantile(statistics.cycles, &SampleStatistics::p50, 1));
+  row.push_back(quantile(statistics.of("settling_time"), &SampleStatistics::p50, 2));
+  row.push_back(quantile(statistics.of("settling_time"), &SampleStatistics::p95, 2));
+  row.push_back(quantile(statistics.of("cycles"), &SampleStatistics::p50, 1));
   row.push_back({failure_causes(statistics), faint});
   return row;
 }
@@ -174,8 +176,9 @@ std::vector<std::size_t> ranking(const std::vector<Summary::Cell>& cells) {
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto key = [&](std::size_t i) {
     const TrialStatistics& statistics = cells[i].statistics;
+    const auto& settling_time = statistics.of("settling_time");
     return std::pair(statistics.success_rate ? -statistics.success_rate->estimate : 1.0,
-                     statistics.settling_time ? statistics.settling_time->p50 : 0.0);
+                     settling_time ? settling_time->p50 : 0.0);
   };
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
   return order;
@@ -249,7 +252,7 @@ std::string summary_text(const Summary& summary, bool colour) {
   } else {
     text += success_text(summary.all, colour);
     if (summary.all.completed > 0) text += '\n' + outcome_text(summary.all, colour);
-    if (summary.all.settling_time) text += '\n' + sample_text(summary.all, colour);
+    if (summary.all.of("settling_time")) text += '\n' + sample_text(summary.all, colour);
     if (!summary.cells.empty()) text += '\n' + cells_text(summary.cells, colour);
   }
   if (summary.audit) text += '\n' + audit_text(*summary.audit, colour);

@@ -47,7 +47,8 @@ std::optional<SampleStatistics> describe(std::span<const double> sample) {
                           quantile(sorted, 0.50),
                           quantile(sorted, 0.95),
                           quantile(sorted, 0.99),
-                          sorted.back()};
+                          sorted.back(),
+                          sorted.size()};
 }
 
 }  // namespace steerstat

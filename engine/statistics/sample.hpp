@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -10,6 +11,7 @@ struct SampleStatistics {
   double mean;
   std::optional<double> std;  ///< standard deviation, divisor n - 1; none for a sample of one
   double min, p05, p50, p95, p99, max;
+  std::uint64_t count;  ///< values in the sample, > 0
 
   friend bool operator==(const SampleStatistics&, const SampleStatistics&) = default;
 };

@@ -21,6 +21,16 @@ struct TrialParameters {
   Controller controller{};  ///< its `coupling` is that of `nominal`
 };
 
+/// What a trial has where a quantity does not exist in it.
+inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
+
+/// How much the finished contraction cycles of a trial left of an error: end over start of each, the paper's eta (§4.1)
+/// as achieved.
+struct ContractionRatios {
+  double mean{no_value};   ///< NaN where no cycle finished
+  double worst{no_value};  ///< the one of the largest magnitude, with its sign
+};
+
 /// What one trial reports.
 struct TrialOutcome {
   Status status{Status::integrator_failed};
@@ -32,15 +42,18 @@ struct TrialOutcome {
   double passive_error{0.0};  ///< rad + rad/s, at the end
   double active_error{0.0};   ///< norm of m and m/s, at the end
 
-  /// [s] the end time of a converged trial, NaN of any other.
-  [[nodiscard]] double settling_time() const {
-    return status == Status::converged ? end_time : std::numeric_limits<double>::quiet_NaN();
-  }
+  double effort{no_value};                   ///< [N^2 s] integral of tau^2
+  double peak_acceleration{no_value};        ///< [m/s^2] largest |a|
+  double peak_force{no_value};               ///< [N] largest |tau|
+  double peak_stroke{no_value};              ///< [m] largest |q1 - q1_goal|
+  ContractionRatios position_contraction{};  ///< of e = w - u, the distance to go
+  ContractionRatios velocity_contraction{};  ///< of omega, the speed towards the goal
 
-  friend bool operator==(const TrialOutcome&, const TrialOutcome&) = default;
+  /// [s] the end time of a converged trial, NaN of any other.
+  [[nodiscard]] double settling_time() const { return status == Status::converged ? end_time : no_value; }
 };
 
-/// Whether two outcomes are the same bits; unlike ==, a NaN equals itself and the two zeros differ.
+/// Whether two outcomes are the same bits: a NaN equals itself, and the two zeros differ.
 inline bool same_bits(const TrialOutcome& a, const TrialOutcome& b) {
   const auto same = [](double x, double y) {
     return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
@@ -48,7 +61,16 @@ inline bool same_bits(const TrialOutcome& a, const TrialOutcome& b) {
   return a.status == b.status && a.cycles == b.cycles && a.swings == b.swings && a.alignments == b.alignments &&
          same(a.end_time, b.end_time) && same(a.end_state.q1, b.end_state.q1) && same(a.end_state.q2, b.end_state.q2) &&
          same(a.end_state.q1_dot, b.end_state.q1_dot) && same(a.end_state.q2_dot, b.end_state.q2_dot) &&
-         same(a.passive_error, b.passive_error) && same(a.active_error, b.active_error);
+         same(a.passive_error, b.passive_error) && same(a.active_error, b.active_error) && same(a.effort, b.effort) &&
+         same(a.peak_acceleration, b.peak_acceleration) && same(a.peak_force, b.peak_force) &&
+         same(a.peak_stroke, b.peak_stroke) && same(a.position_contraction.mean, b.position_contraction.mean) &&
+         same(a.position_contraction.worst, b.position_contraction.worst) &&
+         same(a.velocity_contraction.mean, b.velocity_contraction.mean) &&
+         same(a.velocity_contraction.worst, b.velocity_contraction.worst);
+}
+
+inline bool operator==(const TrialOutcome& a, const TrialOutcome& b) {
+  return same_bits(a, b);
 }
 
 }  // namespace steerstat

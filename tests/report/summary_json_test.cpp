@@ -20,23 +20,31 @@ Json json_of(const Summary& summary) {
   return Json::parse(summary_json(summary));
 }
 
-const std::vector<std::string> sample_keys{"mean", "std", "min", "p05", "p50", "p95", "p99", "max"};
+const std::vector<std::string> statistics_keys{"mean", "std", "min", "p05", "p50", "p95", "p99", "max"};
+const std::vector<std::string> sample_keys = [] {
+  std::vector<std::string> keys = statistics_keys;
+  keys.emplace_back("count");
+  return keys;
+}();
+
+std::vector<std::string> with_metrics(std::vector<std::string> before, const std::vector<std::string>& after) {
+  for (const Metric& metric : metrics()) before.emplace_back(metric.name);
+  before.insert(before.end(), after.begin(), after.end());
+  return before;
+}
 
 TEST(SummaryJson, HasTheInterfacesKeysInItsOrder) {
   const Json json = json_of(made_up_sweep(2));
-  EXPECT_EQ(keys_of(json),
-            (std::vector<std::string>{"study", "complete", "trials", "success_rate", "outcomes", "settling_time",
-                                      "cycles", "cells", "gates", "audit", "performance"}));
+  EXPECT_EQ(keys_of(json), with_metrics({"study", "complete", "trials", "success_rate", "outcomes"},
+                                        {"cells", "gates", "audit", "performance"}));
   EXPECT_EQ(keys_of(json["study"]), (std::vector<std::string>{"id", "name", "spec_sha256", "engine_version", "seed"}));
   EXPECT_EQ(keys_of(json["trials"]), (std::vector<std::string>{"requested", "completed"}));
   EXPECT_EQ(keys_of(json["success_rate"]),
             (std::vector<std::string>{"estimate", "ci_low", "ci_high", "level", "method"}));
   EXPECT_EQ(keys_of(json["outcomes"]),
             (std::vector<std::string>{"converged", "timeout", "singular", "diverged", "integrator_failed"}));
-  EXPECT_EQ(keys_of(json["settling_time"]), sample_keys);
-  EXPECT_EQ(keys_of(json["cycles"]), sample_keys);
-  EXPECT_EQ(keys_of(json["cells"][0]),
-            (std::vector<std::string>{"sweep", "trials", "success_rate", "outcomes", "settling_time", "cycles"}));
+  for (const Metric& metric : metrics()) EXPECT_EQ(keys_of(json[std::string(metric.name)]), sample_keys) << metric.name;
+  EXPECT_EQ(keys_of(json["cells"][0]), with_metrics({"sweep", "trials", "success_rate", "outcomes"}, {}));
   EXPECT_EQ(keys_of(json["performance"]), (std::vector<std::string>{"wall_s", "trials_per_s", "threads", "simd"}));
 }
 
@@ -51,9 +59,10 @@ TEST(SummaryJson, HoldsTheSummarysValuesToTheBit) {
   EXPECT_EQ(json["success_rate"]["method"], "wilson");
   EXPECT_EQ(json["outcomes"]["singular"], 1);
   EXPECT_EQ(json["settling_time"]["mean"].get<double>(), 40.0);
-  EXPECT_EQ(json["settling_time"]["std"].get<double>(), *summary.all.settling_time->std);
-  EXPECT_EQ(json["settling_time"]["p99"].get<double>(), summary.all.settling_time->p99);
+  EXPECT_EQ(json["settling_time"]["std"].get<double>(), *summary.all.of("settling_time")->std);
+  EXPECT_EQ(json["settling_time"]["p99"].get<double>(), summary.all.of("settling_time")->p99);
   EXPECT_EQ(json["cycles"]["max"].get<double>(), 7.0);
+  EXPECT_EQ(json["cycles"]["count"], 7);
   EXPECT_EQ(json["gates"], Json::array());
   EXPECT_TRUE(json["audit"].is_null());
   EXPECT_EQ(json["performance"]["trials_per_s"].get<double>(), 2.5);
@@ -96,9 +105,10 @@ TEST(SummaryJson, IsNullWhereThereIsNoData) {
   const Json json = json_of(summary);
   for (const char* key : {"estimate", "ci_low", "ci_high"}) EXPECT_TRUE(json["success_rate"][key].is_null()) << key;
   EXPECT_EQ(json["success_rate"]["level"], 0.95);
-  for (const std::string& key : sample_keys) {
-    EXPECT_TRUE(json["settling_time"][key].is_null()) << key;
-    EXPECT_TRUE(json["cycles"][key].is_null()) << key;
+  for (const Metric& metric : metrics()) {
+    const Json& sample = json[std::string(metric.name)];
+    for (const std::string& key : statistics_keys) EXPECT_TRUE(sample[key].is_null()) << metric.name << ' ' << key;
+    EXPECT_EQ(sample["count"], 0) << metric.name;
   }
   EXPECT_TRUE(json["performance"]["trials_per_s"].is_null());
 }

@@ -67,8 +67,8 @@ TEST(Summarise, CountsEveryFinishedTrialInTheDenominator) {
 
 TEST(Summarise, DescribesTheConvergedTrialsAlone) {
   const TrialStatistics all = summarise(sweep_of_two(4), six_trials()).all;
-  EXPECT_EQ(all.settling_time, describe(std::vector<double>{40.0, 50.0, 90.0}));
-  EXPECT_EQ(all.cycles, describe(std::vector<double>{5.0, 6.0, 9.0}));
+  EXPECT_EQ(all.of("settling_time"), describe(std::vector<double>{40.0, 50.0, 90.0}));
+  EXPECT_EQ(all.of("cycles"), describe(std::vector<double>{5.0, 6.0, 9.0}));
 }
 
 TEST(Summarise, GivesEachCellItsOwnTrials) {
@@ -80,16 +80,16 @@ TEST(Summarise, GivesEachCellItsOwnTrials) {
   EXPECT_EQ(summary.cells[1].sweep[0].value, 0.5);
   EXPECT_EQ(summary.cells[0].statistics.outcomes, (std::array<std::uint64_t, 5>{2, 0, 0, 1, 0}));
   EXPECT_EQ(summary.cells[1].statistics.outcomes, (std::array<std::uint64_t, 5>{1, 1, 1, 0, 0}));
-  EXPECT_EQ(summary.cells[0].statistics.settling_time, describe(std::vector<double>{40.0, 50.0}));
-  EXPECT_EQ(summary.cells[1].statistics.settling_time, describe(std::vector<double>{90.0}));
+  EXPECT_EQ(summary.cells[0].statistics.of("settling_time"), describe(std::vector<double>{40.0, 50.0}));
+  EXPECT_EQ(summary.cells[1].statistics.of("settling_time"), describe(std::vector<double>{90.0}));
 }
 
 TEST(Summarise, HasNoStatisticsWithoutTrials) {
   const Summary summary = summarise(sweep_of_two(4), StudyResult{});
   EXPECT_EQ(summary.all.completed, 0U);
   EXPECT_FALSE(summary.all.success_rate);
-  EXPECT_FALSE(summary.all.settling_time);
-  EXPECT_FALSE(summary.all.cycles);
+  EXPECT_FALSE(summary.all.of("settling_time"));
+  EXPECT_FALSE(summary.all.of("cycles"));
   ASSERT_EQ(summary.cells.size(), 2U);
   EXPECT_FALSE(summary.cells[0].statistics.success_rate);
 }
@@ -102,7 +102,7 @@ TEST(Summarise, HasASuccessRateButNoSettlingTimeWhereNoTrialConverged) {
   const Summary summary = summarise(decode_study("{}", {}), result);
   ASSERT_TRUE(summary.all.success_rate);
   EXPECT_EQ(summary.all.success_rate->estimate, 0.0);
-  EXPECT_FALSE(summary.all.settling_time);
+  EXPECT_FALSE(summary.all.of("settling_time"));
   EXPECT_TRUE(summary.cells.empty());
   EXPECT_TRUE(summary.complete);
 }

@@ -63,7 +63,7 @@ TEST(Describe, SaysNothingOfAnEmptySample) {
 
 TEST(Describe, GivesASampleOfOneNoSpread) {
   const std::vector<double> sample{17.5};
-  const SampleStatistics expected{17.5, std::nullopt, 17.5, 17.5, 17.5, 17.5, 17.5, 17.5};
+  const SampleStatistics expected{17.5, std::nullopt, 17.5, 17.5, 17.5, 17.5, 17.5, 17.5, 1};
   EXPECT_EQ(describe(sample), expected);
 }
 
