@@ -23,18 +23,21 @@ struct Tally {
     }
   }
 
-  [[nodiscard]] TrialStatistics statistics() const {
+  [[nodiscard]] TrialStatistics statistics(const IntervalChoice& intervals) const {
     TrialStatistics result;
     result.outcomes = outcomes;
     for (const std::uint64_t count : outcomes) result.completed += count;
     const std::uint64_t converged = outcomes[static_cast<std::size_t>(Status::converged)];
-    if (result.completed > 0) result.success_rate = wilson_interval(converged, result.completed, success_rate_level);
+    if (result.completed > 0) {
+      result.success_rate = proportion_interval(intervals.method, converged, result.completed, intervals.level);
+    }
     for (std::size_t i = 0; i < metric_count; ++i) result.metrics[i] = describe(samples[i]);
     return result;
   }
 };
 
-std::vector<Summary::Cell> summarise_cells(const Plan& plan, const TrialTable& trials) {
+std::vector<Summary::Cell> summarise_cells(const Plan& plan, const IntervalChoice& intervals,
+                                           const TrialTable& trials) {
   if (plan.sweep_values(0).empty()) return {};
   std::vector<Tally> tallies(plan.cells());
   for (std::size_t row = 0; row < trials.index.size(); ++row) {
@@ -43,7 +46,7 @@ std::vector<Summary::Cell> summarise_cells(const Plan& plan, const TrialTable& t
   std::vector<Summary::Cell> cells;
   cells.reserve(tallies.size());
   for (std::uint64_t cell = 0; cell < plan.cells(); ++cell) {
-    cells.push_back({plan.sweep_values(cell), tallies[cell].statistics()});
+    cells.push_back({plan.sweep_values(cell), tallies[cell].statistics(intervals)});
   }
   return cells;
 }
@@ -86,8 +89,9 @@ Summary summarise(const Study& study, const StudyResult& result) {
   summary.seed = study.sampling.seed;
   summary.complete = result.complete;
   summary.requested = plan.trials();
-  summary.all = all.statistics();
-  summary.cells = summarise_cells(plan, result.trials);
+  summary.intervals = study.intervals;
+  summary.all = all.statistics(study.intervals);
+  summary.cells = summarise_cells(plan, study.intervals, result.trials);
   summary.audit = summarise_audit(result.audit, result.trials);
   summary.wall_s = result.wall_s;
   summary.threads = result.threads;

@@ -17,9 +17,6 @@
 
 namespace steerstat {
 
-/// Level of the success rate's confidence interval.
-inline constexpr double success_rate_level = 0.95;
-
 /// What a set of trials says; statistics without data are empty.
 struct TrialStatistics {
   std::uint64_t completed{0};
@@ -51,6 +48,7 @@ struct Summary {
   std::uint64_t seed{0};
   bool complete{false};
   std::uint64_t requested{0};
+  IntervalChoice intervals;
   TrialStatistics all;
   struct Cell {
     std::vector<Plan::SweptValue> sweep;

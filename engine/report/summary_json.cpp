@@ -12,11 +12,11 @@ Json number_or_null(std::optional<double> value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-Json success_rate_json(const std::optional<ProportionInterval>& rate) {
+Json success_rate_json(const std::optional<ProportionInterval>& rate, const IntervalChoice& intervals) {
   Json json = {{"estimate", nullptr}, {"ci_low", nullptr}, {"ci_high", nullptr}};
   if (rate) json = {{"estimate", rate->estimate}, {"ci_low", rate->low}, {"ci_high", rate->high}};
-  json["level"] = rate ? rate->level : success_rate_level;
-  json["method"] = "wilson";
+  json["level"] = intervals.level;
+  json["method"] = proportion_method_names[static_cast<std::size_t>(intervals.method)];
   return json;
 }
 
@@ -35,9 +35,10 @@ Json sample_json(const std::optional<SampleStatistics>& sample) {
           {"count", sample ? sample->count : 0}};
 }
 
-void append_statistics(Json& json, std::uint64_t requested, const TrialStatistics& statistics) {
+void append_statistics(Json& json, std::uint64_t requested, const IntervalChoice& intervals,
+                       const TrialStatistics& statistics) {
   json["trials"] = {{"requested", requested}, {"completed", statistics.completed}};
-  json["success_rate"] = success_rate_json(statistics.success_rate);
+  json["success_rate"] = success_rate_json(statistics.success_rate, intervals);
   json["outcomes"] = outcomes_json(statistics);
   for (std::size_t i = 0; i < metric_count; ++i) {
     json[std::string(metrics()[i].name)] = sample_json(statistics.metrics[i]);
@@ -50,7 +51,7 @@ Json cells_json(const Summary& summary) {
     Json json;
     json["sweep"] = Json::object();
     for (const Plan::SweptValue& swept : cell.sweep) json["sweep"][swept.name] = swept.value;
-    append_statistics(json, summary.requested / summary.cells.size(), cell.statistics);
+    append_statistics(json, summary.requested / summary.cells.size(), summary.intervals, cell.statistics);
     cells.push_back(std::move(json));
   }
   return cells;
@@ -87,7 +88,7 @@ std::string summary_json(const Summary& summary) {
                    {"engine_version", summary.engine_version},
                    {"seed", summary.seed}};
   json["complete"] = summary.complete;
-  append_statistics(json, summary.requested, summary.all);
+  append_statistics(json, summary.requested, summary.intervals, summary.all);
   json["cells"] = cells_json(summary);
   json["gates"] = Json::array();
   json["audit"] = audit_json(summary.audit);

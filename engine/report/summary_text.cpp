@@ -56,12 +56,23 @@ std::string interval_text(const ProportionInterval& rate, std::uint64_t trials) 
   return fmt::format("{} to {}", low.substr(0, low.size() - 2), readable_share(rate.high, trials));
 }
 
-std::string success_text(const TrialStatistics& all, bool colour) {
+const char* method_name(ProportionMethod method) {
+  switch (method) {
+    case ProportionMethod::wilson:
+      return "Wilson";
+    case ProportionMethod::clopper_pearson:
+      return "Clopper-Pearson";
+    default:
+      return "confidence sequence";
+  }
+}
+
+std::string success_text(const TrialStatistics& all, ProportionMethod method, bool colour) {
   if (!all.success_rate) return "  No trial has finished.\n";
   const ProportionInterval& rate = *all.success_rate;
-  return fmt::format("  {}  {}   {} % interval {} (Wilson)\n  {}\n", styled("Success rate", bold, colour),
+  return fmt::format("  {}  {}   {} % interval {} ({})\n  {}\n", styled("Success rate", bold, colour),
                      styled(readable_share(rate.estimate, all.completed), bold, colour), 100.0 * rate.level,
-                     interval_text(rate, all.completed),
+                     interval_text(rate, all.completed), method_name(method),
                      styled(interval_bar(rate.low, rate.high, bar_width), style_of(Status::converged), colour));
 }
 
@@ -184,11 +195,11 @@ std::vector<std::size_t> ranking(const std::vector<Summary::Cell>& cells) {
   return order;
 }
 
-std::string cells_text(const std::vector<Summary::Cell>& cells, bool colour) {
+std::string cells_text(const std::vector<Summary::Cell>& cells, double level, bool colour) {
   std::vector<TextTable::Column> columns;
   for (std::string& name : short_names(cells.front().sweep)) columns.push_back({std::move(name)});
   columns.insert(columns.end(), {{"Success"},
-                                 {fmt::format("{} % interval", 100.0 * success_rate_level)},
+                                 {fmt::format("{} % interval", 100.0 * level)},
                                  {"Median [s]"},
                                  {"95 % [s]"},
                                  {"Cycles"},
@@ -250,10 +261,12 @@ std::string summary_text(const Summary& summary, bool colour) {
   if (summary.all.completed == 1 && summary.cells.empty()) {
     text += single_text(summary.all, colour);
   } else {
-    text += success_text(summary.all, colour);
+    text += success_text(summary.all, summary.intervals.method, colour);
     if (summary.all.completed > 0) text += '\n' + outcome_text(summary.all, colour);
-    if (summary.all.of("settling_time")) text += '\n' + sample_text(summary.all, colour);
-    if (!summary.cells.empty()) text += '\n' + cells_text(summary.cells, colour);
+    if (summary.all.of("settling_time")) text += '
+' + sample_text(summary.all, colour);
+    if (!summary.cells.empty()) text += '
+' + cells_text(summary.cells, summary.intervals.level, colour);
   }
   if (summary.audit) text += '\n' + audit_text(*summary.audit, colour);
   return text + '\n' + performance_text(summary, colour);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "study/input_json.hpp"
+#include "study/intervals_json.hpp"
 #include "study/sampling_json.hpp"
 #include "study/spec_json.hpp"
 
@@ -88,6 +89,10 @@ std::string canonical_spec(const Study& study) {
   spec["sampling"] = encode_sampling(study.sampling);
   spec["retain"]["trajectories"] = {{"failed", study.retention.failed}, {"first", study.retention.first}};
   spec["audit"]["trials"] = study.audited_trials;
+  // What a study did not say before these keys existed is left out, so that its identity stays.
+  if (Canonical intervals = encode_intervals(study.intervals, false); !intervals.is_null()) {
+    spec["intervals"] = std::move(intervals);
+  }
   std::string text;
   write(spec, text);
   return text;

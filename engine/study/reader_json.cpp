@@ -23,7 +23,9 @@ std::vector<std::string_view> places_in_spec() {
                                        "sampling.seed",
                                        "sampling.file",
                                        "controller.realignment",
-                                       "retain.trajectories"};
+                                       "retain.trajectories",
+                                       "intervals.method",
+                                       "intervals.level"};
   for (const InputDefinition& definition : input_definitions()) places.push_back(definition.name);
   return places;
 }

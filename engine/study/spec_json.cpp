@@ -10,6 +10,7 @@
 #include "core/elementary.hpp"
 #include "study/input_json.hpp"
 #include "study/inputs.hpp"
+#include "study/intervals_json.hpp"
 #include "study/limits.hpp"
 #include "study/parse_json.hpp"
 #include "study/reader_json.hpp"
@@ -66,15 +67,16 @@ class Decoder {
     }
     if (const auto retain = root_.find("retain")) decode_retention(*retain);
     if (const auto audit = root_.find("audit")) decode_audit(*audit);
+    if (const auto intervals = root_.find("intervals")) study_.intervals = decode_intervals(*intervals, false);
     check_rules(study_, mistaken_, errors_);
     return study_;
   }
 
  private:
   void refuse_unknown_keys() {
-    static constexpr std::array<std::string_view, 11> known{"name",     "nominal",    "plant",   "initial_state",
+    static constexpr std::array<std::string_view, 12> known{"name",     "nominal",    "plant",   "initial_state",
                                                             "goal",     "controller", "horizon", "integrator",
-                                                            "sampling", "retain",     "audit"};
+                                                            "sampling", "retain",     "audit",   "intervals"};
     root_.refuse_unknown_keys(known, later_keys);
     for (const std::string_view key : later_keys) {
       if (const auto member = root_.find(key)) {

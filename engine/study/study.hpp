@@ -10,6 +10,7 @@
 #include "control/goal.hpp"
 #include "robot/plant.hpp"
 #include "sampling/distribution.hpp"
+#include "statistics/proportion.hpp"
 #include "trial/runner.hpp"
 
 namespace steerstat {
@@ -50,6 +51,18 @@ struct Retention {
   friend bool operator==(const Retention&, const Retention&) = default;
 };
 
+/// Which intervals the summary gives.
+struct IntervalChoice {
+  ProportionMethod method{ProportionMethod::wilson};  ///< of the success rate
+  double level{0.95};                                 ///< in [0.5, 0.999999], of every interval
+  friend bool operator==(const IntervalChoice&, const IntervalChoice&) = default;
+};
+
+/// The intervals of a study whose spec asks for none. @param stops  whether it stops on precision
+constexpr IntervalChoice default_intervals(bool stops) {
+  return {stops ? ProportionMethod::confidence_sequence : ProportionMethod::wilson, 0.95};
+}
+
 /// A study: what a spec says, checked and with every default filled in. A value; the outcomes are a function of it.
 struct Study {
   std::string name{"study"};
@@ -61,6 +74,7 @@ struct Study {
   IntegratorChoice integrator{};
   Sampling sampling{};
   Retention retention{};
+  IntervalChoice intervals{};
   std::uint64_t audited_trials{16};  ///< computed again by the reference integrator; all where there are fewer
 
   friend bool operator==(const Study&, const Study&) = default;

@@ -15,7 +15,7 @@ inline TrialStatistics made_up_statistics(std::array<std::uint64_t, status_names
   statistics.outcomes = outcomes;
   for (const std::uint64_t count : outcomes) statistics.completed += count;
   if (statistics.completed > 0) {
-    statistics.success_rate = wilson_interval(outcomes[0], statistics.completed, success_rate_level);
+    statistics.success_rate = wilson_interval(outcomes[0], statistics.completed, 0.95);
   }
   std::vector<double> times;
   std::vector<double> cycles;

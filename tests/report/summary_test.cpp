@@ -65,6 +65,15 @@ TEST(Summarise, CountsEveryFinishedTrialInTheDenominator) {
   EXPECT_EQ(all.success_rate->level, 0.95);
 }
 
+TEST(Summarise, TakesTheIntervalThatTheSpecAsksFor) {
+  Study study = sweep_of_two(4);
+  study.intervals = {ProportionMethod::clopper_pearson, 0.9};
+  const Summary summary = summarise(study, six_trials());
+  EXPECT_EQ(summary.all.success_rate->low, clopper_pearson_interval(3, 6, 0.9).low);
+  EXPECT_EQ(summary.all.success_rate->high, clopper_pearson_interval(3, 6, 0.9).high);
+  EXPECT_EQ(summary.cells[0].statistics.success_rate->low, clopper_pearson_interval(2, 3, 0.9).low);
+}
+
 TEST(Summarise, DescribesTheConvergedTrialsAlone) {
   const TrialStatistics all = summarise(sweep_of_two(4), six_trials()).all;
   EXPECT_EQ(all.of("settling_time"), describe(std::vector<double>{40.0, 50.0, 90.0}));

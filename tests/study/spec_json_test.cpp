@@ -183,6 +183,14 @@ TEST(CanonicalSpec, SortsKeysAndFillsInEveryDefault) {
   EXPECT_EQ(canonical_spec(study_of("{}")), canonical_empty_spec);
 }
 
+TEST(CanonicalSpec, LeavesOutIntervalsThatAreTheDefault) {
+  EXPECT_EQ(canonical_spec(study_of(R"({"intervals": {"method": "wilson", "level": 0.95}})")), canonical_empty_spec);
+  EXPECT_THAT(canonical_spec(study_of(R"({"intervals": {"method": "clopper_pearson", "level": 0.95}})")),
+              ::testing::HasSubstr(R"("intervals":{"method":"clopper_pearson"})"));
+  EXPECT_THAT(canonical_spec(study_of(R"({"intervals": {"level": 0.9}})")),
+              ::testing::HasSubstr(R"("intervals":{"level":0.9})"));
+}
+
 TEST(CanonicalSpec, DoesNotDependOnHowTheSpecWasWritten) {
   EXPECT_EQ(canonical_spec(study_of(R"({"plant": {"m1": 1.50, "m2": 1e0}, "horizon": 3e2})")),
             canonical_spec(study_of(R"({ "horizon":300.0, "plant":{"m2":1,"m1":15e-1} })")));
