@@ -263,10 +263,8 @@ std::string summary_text(const Summary& summary, bool colour) {
   } else {
     text += success_text(summary.all, summary.intervals.method, colour);
     if (summary.all.completed > 0) text += '\n' + outcome_text(summary.all, colour);
-    if (summary.all.of("settling_time")) text += '
-' + sample_text(summary.all, colour);
-    if (!summary.cells.empty()) text += '
-' + cells_text(summary.cells, summary.intervals.level, colour);
+    if (summary.all.of("settling_time")) text += '\n' + sample_text(summary.all, colour);
+    if (!summary.cells.empty()) text += '\n' + cells_text(summary.cells, summary.intervals.level, colour);
   }
   if (summary.audit) text += '\n' + audit_text(*summary.audit, colour);
   return text + '\n' + performance_text(summary, colour);
