@@ -15,25 +15,63 @@ struct JointSeries {
   double x[order + 1];  ///< coefficients of the velocity, in the series' units of time
   double rate;          ///< those units a second
   double start;         ///< position at the step's start
+};
 
-  struct Motion {
-    double position, velocity, acceleration, jerk;
-  };
-  /// @param t  [s] since the step's start
-  [[nodiscard, gnu::noinline]] Motion at(double t) const {
-    t *= rate;
-    double velocity = x[order];
-    double position = velocity * reciprocals[order + 1];
-    double acceleration = 0.0, half_jerk = 0.0;
-    for (int k = order - 1; k >= 0; --k) {
-      half_jerk = std::fma(half_jerk, t, acceleration);
-      acceleration = std::fma(acceleration, t, velocity);
-      velocity = std::fma(velocity, t, x[k]);
-      position = std::fma(position, t, x[k] * reciprocals[k + 1]);
-    }
-    return {std::fma(position, t, start), velocity * rate, acceleration * (rate * rate),
-            2.0 * half_jerk * (rate * rate * rate)};
+/// A joint's motion at a moment.
+struct Motion {
+  double position, velocity, acceleration, jerk, snap;
+
+  /// The motion a little later, exact to rounding where `dt` is a ten-thousandth of a step.
+  [[nodiscard]] Motion after(double dt) const {
+    return {std::fma(std::fma(std::fma(jerk, dt * (1.0 / 3.0), acceleration), 0.5 * dt, velocity), dt, position),
+            std::fma(std::fma(std::fma(snap, dt * (1.0 / 3.0), jerk), 0.5 * dt, acceleration), dt, velocity),
+            acceleration, jerk, snap};
   }
+};
+
+/// The motion of both joints over a lane's last step. Of a trial's guards, the first joint's watch align and the
+/// second's drift.
+struct LaneMotion {
+  JointSeries joint[2];
+
+  struct Moment {
+    double t;  ///< [s] since the step's start
+    Motion joint[2];
+  };
+  /// Both joints at once: each sum waits for itself, and ten of them take little longer than one.
+  ///
+  /// @param t  [s] since the step's start
+  [[gnu::noinline]] void at(double t, Moment& out) const {
+    const double u = t * joint[0].rate;
+    Horner first(joint[0]), second(joint[1]);
+    for (int k = order - 1; k >= 0; --k) {
+      first.take(joint[0].x[k], reciprocals[k + 1], u);
+      second.take(joint[1].x[k], reciprocals[k + 1], u);
+    }
+    out = {t, {first.motion(joint[0], u), second.motion(joint[1], u)}};
+  }
+
+ private:
+  /// The sums of one joint, a coefficient at a time.
+  struct Horner {
+    double position, velocity, acceleration{0.0}, half_jerk{0.0}, sixth_snap{0.0};
+
+    explicit Horner(const JointSeries& joint)
+        : position(joint.x[order] * reciprocals[order + 1]), velocity(joint.x[order]) {}
+
+    void take(double x, double reciprocal, double u) {
+      sixth_snap = std::fma(sixth_snap, u, half_jerk);
+      half_jerk = std::fma(half_jerk, u, acceleration);
+      acceleration = std::fma(acceleration, u, velocity);
+      velocity = std::fma(velocity, u, x);
+      position = std::fma(position, u, x * reciprocal);
+    }
+    [[nodiscard]] Motion motion(const JointSeries& joint, double u) const {
+      const double rate = joint.rate, rate2 = rate * rate;
+      return {std::fma(position, u, joint.start), velocity * rate, acceleration * rate2,
+              2.0 * half_jerk * (rate2 * rate), 6.0 * sixth_snap * (rate2 * rate2)};
+    }
+  };
 };
 
 /// One lane's series, out of all.
@@ -50,20 +88,13 @@ template <int precision>
   }
 }
 template <int precision>
-JointSeries first_joint(const Lanes<precision>& lanes, int lane) {
-  JointSeries joint;
-  take_lane(lanes.series.V, lanes.series.V_short, lane, joint.x);
-  joint.rate = lanes.rate_start[lane];
-  joint.start = lanes.E_start[lane];
-  return joint;
-}
-template <int precision>
-JointSeries second_joint(const Lanes<precision>& lanes, int lane) {
-  JointSeries joint;
-  take_lane(lanes.series.w, lanes.series.w_short, lane, joint.x);
-  joint.rate = lanes.rate_start[lane];
-  joint.start = lanes.q2_start[lane];
-  return joint;
+void take_lane(const Lanes<precision>& lanes, int lane, LaneMotion& out) {
+  JointSeries &first = out.joint[0], &second = out.joint[1];
+  take_lane(lanes.series.V, lanes.series.V_short, lane, first.x);
+  take_lane(lanes.series.w, lanes.series.w_short, lane, second.x);
+  first.rate = second.rate = lanes.rate_start[lane];
+  first.start = lanes.E_start[lane];
+  second.start = lanes.q2_start[lane];
 }
 
 /// A joint's motion sampled at both ends of a span's 16 equal parts; 16 at every lane count.
@@ -115,6 +146,7 @@ struct Evidence {
 
 /// The guard of align: sqrt(E^2 + V^2) - radius.
 struct AlignGuard {
+  static constexpr int joint = 0;
   double radius;
 
   [[nodiscard]] Evidence judge(const Samples& s, double slack, double width) const {
@@ -135,16 +167,15 @@ struct AlignGuard {
   [[nodiscard]] double value(double position, double velocity) const {
     return std::fma(position, position, velocity * velocity) - radius * radius;
   }
-  [[nodiscard]] double rate(const JointSeries::Motion& m) const {
-    return 2.0 * m.velocity * (m.position + m.acceleration);
-  }
-  [[nodiscard]] double curvature(const JointSeries::Motion& m) const {
+  [[nodiscard]] double rate(const Motion& m) const { return 2.0 * m.velocity * (m.position + m.acceleration); }
+  [[nodiscard]] double curvature(const Motion& m) const {
     return 2.0 * (m.acceleration * (m.position + m.acceleration) + m.velocity * (m.velocity + m.jerk));
   }
 };
 
 /// A guard of drift: sign * position - bound, or sign * velocity - bound.
 struct DriftGuard {
+  static constexpr int joint = 1;
   bool of_velocity;
   double sign;
   double bound;
@@ -167,12 +198,16 @@ struct DriftGuard {
   [[nodiscard]] double value(double position, double velocity) const {
     return sign * (of_velocity ? velocity : position) - bound;
   }
-  [[nodiscard]] double rate(const JointSeries::Motion& m) const {
-    return sign * (of_velocity ? m.acceleration : m.velocity);
-  }
-  [[nodiscard]] double curvature(const JointSeries::Motion& m) const {
-    return sign * (of_velocity ? m.jerk : m.acceleration);
-  }
+  [[nodiscard]] double rate(const Motion& m) const { return sign * (of_velocity ? m.acceleration : m.velocity); }
+  [[nodiscard]] double curvature(const Motion& m) const { return sign * (of_velocity ? m.jerk : m.acceleration); }
+};
+
+/// Where a guard fires, and the motion there.
+struct Crossing {
+  double t{Phase::unbounded};  ///< [s] since the step's start; infinite: nowhere
+  LaneMotion::Moment near;     ///< a moment next to it, where it fires
+
+  [[nodiscard]] Motion motion(int joint) const { return near.joint[joint].after(t - near.t); }
 };
 
 /// The guard's root in (low, high], where it goes from positive to <= 0, to 1e-10 of the part and so to rounding in
@@ -181,8 +216,8 @@ struct DriftGuard {
 /// @param g_low, g_high  the guard at the bracket's ends
 /// @param bend           its second difference over parts of the bracket's width, for the first guess
 template <class Guard>
-[[gnu::noinline]] double refine(const Guard& guard, const JointSeries& joint, double low, double high, double g_low,
-                                double g_high, double bend) {
+[[gnu::noinline]] void refine(const Guard& guard, const LaneMotion& motion, double low, double high, double g_low,
+                              double g_high, double bend, Crossing& out) {
   // The parabola through the bracket's ends, by one Newton step from the chord's root; in shares of the width.
   const double width = high - low;
   const double slope = g_high - g_low;
@@ -190,37 +225,45 @@ template <class Guard>
   const double share = chord - 0.5 * bend * chord * (chord - 1.0) / (slope + bend * (chord - 0.5));
   double t = std::fma(0.0 < share && share < 1.0 ? share : chord, width, low);
   for (int i = 0; i < 60; ++i) {
-    const JointSeries::Motion motion = joint.at(t);
-    const double g = guard.value(motion.position, motion.velocity);
+    motion.at(t, out.near);
+    const Motion& watched = out.near.joint[Guard::joint];
+    const double g = guard.value(watched.position, watched.velocity);
     (g > 0.0 ? low : high) = t;
-    const double rate = guard.rate(motion);
-    const double change = 2.0 * g * rate / (2.0 * rate * rate - g * guard.curvature(motion));
+    const double rate = guard.rate(watched);
+    const double change = 2.0 * g * rate / (2.0 * rate * rate - g * guard.curvature(watched));
     double next = t - change;
     // Convergence is cubic: what is left after a change this small is 1e-8 of the part, times how curved it is,
     // squared.
-    if (std::abs(change) <= 2e-3 * width) return std::clamp(next, low, high);
+    if (std::abs(change) <= 2e-3 * width) {
+      out.t = std::clamp(next, low, high);
+      return;
+    }
     if (!(low < next && next < high)) {
       next = 0.5 * (low + high);
-      if (!(low < next && next < high)) return high;
+      if (!(low < next && next < high)) break;
     }
     t = next;
   }
-  return high;
+  out.t = high;
+  motion.at(high, out.near);
 }
 
 /// A span narrower than 16^-4 of a step is not searched for dips: what could hide there is below rounding.
 inline constexpr int deepest = 3;
 
-/// The first time in (from, from + width] at which the guard goes from positive to <= 0; infinity where it does not.
+/// The guard's first crossing in (from, from + width] from positive to <= 0, to `out`; where there is none, nothing.
 ///
+/// @param s      the watched joint there
 /// @param bend   bound on |second derivative of the velocity| over the step [1/s^2 times its unit]
 /// @param armed  whether the guard has been positive before, so that it fires at `from` if it is <= 0 there
 template <class Guard>
-[[gnu::noinline]] double first_crossing(const Guard& guard, const JointSeries& joint, double from, double width,
-                                        double bend, bool armed, int depth = 0) {
-  Samples s;
-  sample(joint, from, width, s);
-  if (armed && guard.value(s.before.position[0], s.before.velocity[0]) <= 0.0) return from;
+[[gnu::noinline]] void first_crossing(const Guard& guard, const LaneMotion& motion, const Samples& s, double from,
+                                      double width, double bend, bool armed, int depth, Crossing& out) {
+  if (armed && guard.value(s.before.position[0], s.before.velocity[0]) <= 0.0) {
+    out.t = from;
+    motion.at(from, out.near);
+    return;
+  }
   const double part = width / Samples::parts;
   Evidence evidence = guard.judge(s, bend * part * part * 0.125, part);
   if (depth == deepest) evidence.uncertain = 0;
@@ -234,36 +277,40 @@ template <class Guard>
       const double g2 = i > 0 ? guard.value(s.before.position[m], s.before.velocity[m])
                               : guard.value(s.after.position[m], s.after.velocity[m]);
       const double second = i > 0 ? g2 - 2.0 * g0 + g1 : g0 - 2.0 * g1 + g2;
-      return refine(guard, joint, s.before.t[i], s.after.t[i], g0, g1, second);
+      refine(guard, motion, s.before.t[i], s.after.t[i], g0, g1, second, out);
+      return;
     }
-    const double found = first_crossing(guard, joint, s.before.t[i], part, bend, false, depth + 1);
-    if (found < Phase::unbounded) return found;
+    Samples closer;
+    sample(motion.joint[Guard::joint], s.before.t[i], part, closer);
+    first_crossing(guard, motion, closer, s.before.t[i], part, bend, false, depth + 1, out);
+    if (out.t < Phase::unbounded) return;
     suspects &= suspects - 1;
   }
-  return Phase::unbounded;
 }
 
-/// The first time [s] since the step's start, within the step, at which a guard of the lane's phase fires; infinity
-/// where none does.
+/// Where a guard of the lane's phase first fires within its last step.
 ///
-/// @param joint  the one its guards watch: the first of an align, else the second
 /// @param armed  whether its guards have all been positive before
-[[gnu::noinline]] inline double locate_guard(const LaneRows& lanes, int lane, const JointSeries& joint, bool armed) {
+[[gnu::noinline]] inline void locate_guard(const LaneRows& lanes, int lane, const LaneMotion& motion, bool armed,
+                                           Crossing& out) {
   const double h = lanes.h[lane];
   const double bend = lanes.bend[lane] / (h * h);
-  if (lanes.radius[lane] >= 0.0) {
-    return first_crossing(AlignGuard{lanes.radius[lane]}, joint, 0.0, h, bend, armed);
+  const bool aligning = lanes.radius[lane] >= 0.0;
+  Samples samples;
+  sample(motion.joint[aligning ? 0 : 1], 0.0, h, samples);
+  if (aligning) {
+    first_crossing(AlignGuard{lanes.radius[lane]}, motion, samples, 0.0, h, bend, armed, 0, out);
+    return;
   }
-  double first = Phase::unbounded;
   const auto consider = [&](const DriftGuard& guard) {
-    if (std::abs(guard.bound) < Phase::unbounded) {
-      first = std::min(first, first_crossing(guard, joint, 0.0, h, bend, armed));
-    }
+    if (!(std::abs(guard.bound) < Phase::unbounded)) return;
+    Crossing crossing;
+    first_crossing(guard, motion, samples, 0.0, h, bend, armed, 0, crossing);
+    if (crossing.t < out.t) out = crossing;
   };
   consider({false, 1.0, lanes.q2_low[lane]});
   consider({false, -1.0, -lanes.q2_high[lane]});
   consider({true, lanes.direction[lane], lanes.speed_floor[lane]});
-  return first;
 }
 
 }  // namespace steerstat::STEERSTAT_ISA

@@ -123,8 +123,11 @@ class Kernel final : public LockstepEngine {
     const Trial& trial = trials_[lane];
     const auto [lanes, i] = place(lane);
     const double dt = t - (trial.t_start + lanes.t_start[i]);
-    const JointSeries::Motion first = first_joint(lanes, i).at(dt);
-    const JointSeries::Motion second = second_joint(lanes, i).at(dt);
+    LaneMotion motion;
+    take_lane(lanes, i, motion);
+    LaneMotion::Moment moment;
+    motion.at(dt, moment);
+    const auto& [first, second] = moment.joint;
     return {trial.loop.q1_goal + first.position / trial.K, second.position, first.velocity / trial.K, second.velocity};
   }
 
@@ -173,17 +176,18 @@ class Kernel final : public LockstepEngine {
   bool search(int lane) {
     ++counters_.searches;
     const auto [lanes, i] = place(lane);
-    const bool aligning = lanes.radius[i] >= 0.0;
-    const JointSeries watched = aligning ? first_joint(lanes, i) : second_joint(lanes, i);
-    const double t = locate_guard(lanes, i, watched, (armed_ & bit(lane)) != 0);
-    if (!(t <= lanes.h[i])) return false;
-    const JointSeries::Motion at1 = aligning ? watched.at(t) : first_joint(lanes, i).at(t);
-    const JointSeries::Motion at2 = aligning ? second_joint(lanes, i).at(t) : watched.at(t);
-    lanes.E[i] = at1.position;
-    lanes.V[i] = at1.velocity;
-    lanes.q2[i] = at2.position;
-    lanes.w[i] = at2.velocity;
-    lanes.t[i] = lanes.t_start[i] + t;
+    LaneMotion motion;
+    take_lane(lanes, i, motion);
+    Crossing crossing;
+    locate_guard(lanes, i, motion, (armed_ & bit(lane)) != 0, crossing);
+    if (!(crossing.t <= lanes.h[i])) return false;
+    const Motion first = crossing.motion(0);
+    const Motion second = crossing.motion(1);
+    lanes.E[i] = first.position;
+    lanes.V[i] = first.velocity;
+    lanes.q2[i] = second.position;
+    lanes.w[i] = second.velocity;
+    lanes.t[i] = lanes.t_start[i] + crossing.t;
     trials_[lane].cause = Cause::guard;
     return true;
   }
@@ -192,8 +196,9 @@ class Kernel final : public LockstepEngine {
   /// @return false, with the lane's cause set, when that cannot be what is wrong
   bool retry(int lane) {
     const auto [lanes, i] = place(lane);
-    const JointSeries first = first_joint(lanes, i);
-    const JointSeries second = second_joint(lanes, i);
+    LaneMotion motion;
+    take_lane(lanes, i, motion);
+    const auto& [first, second] = motion.joint;
     lanes.E[i] = first.start;
     lanes.q2[i] = second.start;
     lanes.V[i] = first.x[0] * first.rate;

@@ -141,27 +141,31 @@ Bend bound_bend(const Expansion<precision>& series, Mask aligning, Single t, Sin
 /// Whether align's guard cannot have fired in the step: a proof, not a sample, in single precision with its roundings
 /// allowed for.
 ///
-/// Over a time d a smooth x(t) stays within d^2 max|x''| / 8 of the chord between its ends.
+/// Over a time d a smooth x(t) stays within d^2 max|x''| / 8 of the chord between its ends; the step is cut into four.
 ///
 /// @param E0, V0, E1, V1  at the step's ends
 template <int precision>
 Mask stays_out(const Expansion<precision>& series, Single E0, Single V0, Single E1, Single V1, Single radius, Bend bend,
                Single t, Single rate) {
-  const Single half = t * Single(0.5);
-  Single V = series.V_short[order];
-  Single E = V * Single(1.0 / (order + 1));
-  unroll<0, order>([&]<int i>() __attribute__((always_inline)) {
-    constexpr int k = order - 1 - i;
-    V = fma(V, half, series.V_short[k]);
-    E = fma(E, half, series.V_short[k] * Single(1.0 / (k + 1)));
+  Single E[3], V[3];  // at the quarters between
+  unroll<0, 3>([&]<int i>() __attribute__((always_inline)) {
+    const Single part = t * Single(0.25 * (i + 1));
+    V[i] = series.V_short[order];
+    E[i] = V[i] * Single(1.0 / (order + 1));
+    unroll<0, order>([&]<int j>() __attribute__((always_inline)) {
+      constexpr int k = order - 1 - j;
+      V[i] = fma(V[i], part, series.V_short[k]);
+      E[i] = fma(E[i], part, series.V_short[k] * Single(1.0 / (k + 1)));
+    });
+    E[i] = fma(E[i], part, E0);
+    V[i] = V[i] * rate;
   });
-  E = fma(E, half, E0);
-  V = V * rate;
-  const Single slack = (bend.velocity + bend.position) * Single(1.0 / 32);
+  const Single slack = (bend.velocity + bend.position) * Single(1.0 / 128);
   const Single rounding =
       (abs(E0) + abs(V0) + abs(series.V_short[0] * t) + bend.velocity + bend.position) * Single(2e-6);
   const Single limit = radius + slack + rounding;
-  return chord_avoids(E0, V0, E, V, limit) & chord_avoids(E, V, E1, V1, limit);
+  return chord_avoids(E0, V0, E[0], V[0], limit) & chord_avoids(E[0], V[0], E[1], V[1], limit) &
+         chord_avoids(E[1], V[1], E[2], V[2], limit) & chord_avoids(E[2], V[2], E1, V1, limit);
 }
 
 /// Whether no guard can have fired in the step.

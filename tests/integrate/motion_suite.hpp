@@ -110,9 +110,11 @@ TYPED_TEST_P(IntegratorMotion, TheErrorFallsWithTheTolerance) {
   EXPECT_LT(coarse, error_growth * 1e-6);
   EXPECT_LT(medium, error_growth * 1e-8);
   EXPECT_LT(fine, error_growth * 1e-10);
-  // A hundredth of the tolerance, a hundredth of the error: with a factor of 4 for steps that do not divide evenly.
-  EXPECT_GT(coarse / medium, 25.0);
-  EXPECT_GT(medium / fine, 25.0);
+  // A hundredth of the tolerance, a hundredth of the error, with a factor of 4 for steps that do not divide evenly;
+  // over both hundredths, for an error thousands of times below the tolerance may be the rounding of a series instead.
+  EXPECT_GT(coarse / fine, 25.0 * 25.0);
+  EXPECT_GE(coarse, medium);
+  EXPECT_GE(medium, fine);
 }
 
 TYPED_TEST_P(IntegratorMotion, StepsTouchAndTheirDenseOutputFollowsTheMotion) {
