@@ -14,5 +14,6 @@ void add_validate(CLI::App& program, ExitCode& exit_code);
 void add_show(CLI::App& program, ExitCode& exit_code);
 void add_replay(CLI::App& program, ExitCode& exit_code);
 void add_export(CLI::App& program, ExitCode& exit_code);
+void add_compare(CLI::App& program, ExitCode& exit_code);
 
 }  // namespace steerstat

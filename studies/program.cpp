@@ -27,6 +27,7 @@ constexpr const char* epilogue = R"(Examples:
   steerstat show result.h5                       print the summary again
   steerstat replay result.h5 --trial 3 -o 3.csv  the trajectory of one trial
   steerstat export result.h5 -o trials.csv       every trial as a row
+  steerstat compare a.h5 b.h5                    two studies on the same draws, trial by trial
 
 Exit codes: 0 done, 2 bad usage or bad spec (nothing is written), 4 the run failed (I/O, a corrupt file),
 130 interrupted, with what was finished kept. COMMAND --help tells more.)";
@@ -91,6 +92,7 @@ ExitCode parse_and_run(int argc, const char* const* argv) {
   add_show(program, exit_code);
   add_replay(program, exit_code);
   add_export(program, exit_code);
+  add_compare(program, exit_code);
   for (CLI::App* command : program.get_subcommands({})) command->group("Commands");
   try {
     program.parse(argc, argv);

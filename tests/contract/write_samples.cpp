@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "../report/sample_comparison.hpp"
 #include "../store/sample_result.hpp"
 #include "report/summary.hpp"
 #include "store/result_file.hpp"
@@ -15,6 +16,24 @@ using namespace steerstat;
 void write(const std::filesystem::path& directory, const char* name, const Study& study, const StudyResult& result) {
   write_result(directory / (std::string(name) + ".h5"), study, result);
   std::ofstream(directory / (std::string(name) + ".json")) << summary_json(summarise(study, result));
+}
+
+/// Comparisons of a swept study that was interrupted, and of two single cells.
+void write_comparisons(const std::filesystem::path& directory, const Study& study, const StudyResult& result,
+                       const StudyResult& interrupted) {
+  testing_report::Finished a{study, result, {}};
+  testing_report::Finished b{study, interrupted, {}};
+  testing_report::store_parameters(a);
+  testing_report::store_parameters(b);
+  std::ofstream(directory / "swept_comparison.json") << comparison_json(compare(a.compared(), b.compared("0.0.9")));
+
+  a = testing_report::finished(testing_report::drawn_spec(60), 1);
+  b = testing_report::finished(
+      testing_report::drawn_spec(60, R"(, "horizon": 100, "controller": {"realignment": "never"})"), 2);
+  std::ofstream(directory / "single_comparison.json") << comparison_json(compare(a.compared(), b.compared()));
+
+  for (TrialOutcome& outcome : b.result.trials.outcomes) outcome.status = Status::timeout;
+  std::ofstream(directory / "hopeless_comparison.json") << comparison_json(compare(a.compared(), b.compared()));
 }
 
 }  // namespace
@@ -33,6 +52,8 @@ int main(int, char** arguments) {
   interrupted.trials.outcomes.erase(interrupted.trials.outcomes.begin() + 20,
                                     interrupted.trials.outcomes.begin() + 110);
   write(directory, "interrupted", study, interrupted);
+
+  write_comparisons(directory, study, every_outcome, interrupted);
 
   StudyResult nothing;
   nothing.threads = 1;

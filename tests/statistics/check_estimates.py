@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Holds our interval estimators against SciPy's.
+"""Holds our estimators against SciPy's.
 
 Usage: check_estimates.py PRINT_ESTIMATES
 
@@ -71,12 +71,53 @@ def confidence_sequence_cases():
             yield f"ranks {n} {p} 0.95", (low if low > 0 else math.nan, high if high <= n else math.nan), 0.0
 
 
+def mcnemar_cases():
+    for a, b in ((0, 0), (0, 1), (1, 7), (5, 5), (16, 6), (0, 60), (480, 520), (4800, 5200), (100_000, 100_500)):
+        if a + b == 0:
+            yield f"mcnemar {a} {b}", (1, 1), 0.0
+            continue
+        test = stats.binomtest(a, a + b).pvalue
+        mid_p = 2 * stats.binom.cdf(min(a, b), a + b, 0.5) - math.exp(stats.binom.logpmf(a, a + b, 0.5))
+        yield f"mcnemar {a} {b}", (test, mid_p), 1e-10 * test
+
+
+def tango_interval(a, b, pairs, level):
+    """Tango's interval from its definition: where the score of the trinomial's likelihood, maximised numerically at a
+    given difference b less a, meets the normal quantile."""
+
+    def score(difference):
+        most = (1 - abs(difference)) / 2  # of the rarer discordant outcome
+
+        def cells(rarer):
+            return rarer + max(0.0, -difference), rarer + max(0.0, difference)
+
+        def slope(rarer):  # of the log likelihood
+            p_a, p_b = cells(rarer)
+            return a / p_a + b / p_b - 2 * (pairs - a - b) / (1 - p_a - p_b)
+
+        rarer = optimize.brentq(slope, 1e-12 * most, (1 - 1e-12) * most, xtol=1e-300, rtol=1e-15)
+        return (b - a - pairs * difference) / math.sqrt(pairs * (sum(cells(rarer)) - difference**2))
+
+    z = stats.norm.isf((1 - level) / 2)
+    estimate = (b - a) / pairs
+    low = optimize.brentq(lambda d: score(d) - z, -0.99, estimate - 1e-9, xtol=1e-14)
+    high = optimize.brentq(lambda d: score(d) + z, estimate + 1e-9, 0.99, xtol=1e-14)
+    return low, high
+
+
+def tango_cases():
+    for a, b, pairs in ((7, 1, 21), (16, 6, 161), (12, 2, 50), (28, 25, 618), (3, 40, 2000), (41, 48, 549)):
+        for level in (0.5, 0.95, 0.999):
+            yield f"tango {a} {b} {pairs} {level}", tango_interval(a, b, pairs, level), 1e-10
+
+
 def same(found, expected, tolerance):
     return (math.isnan(found) and math.isnan(expected)) or abs(found - expected) <= tolerance
 
 
 def main(program):
     cases = [*proportion_cases(), *quantile_cases(), *mean_cases(), *confidence_sequence_cases()]
+    cases += [*mcnemar_cases(), *tango_cases()]
     lines = "".join(line + "\n" for line, _, _ in cases)
     printed = subprocess.run([program], input=lines, capture_output=True, text=True, check=True).stdout.splitlines()
     if len(printed) != len(cases):

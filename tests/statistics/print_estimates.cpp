@@ -8,6 +8,8 @@
 //   ranks N P LEVEL                          of a quantile's confidence sequence
 //   ratio SUCCESSES TRIALS P                 log_mixture_ratio, twice
 //   mean MEAN STD N LEVEL
+//   mcnemar A_ONLY B_ONLY                    prints `p_value mid_p_value`
+//   tango A_ONLY B_ONLY PAIRS LEVEL
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -18,6 +20,7 @@
 #include <vector>
 
 #include "statistics/confidence_sequence.hpp"
+#include "statistics/paired.hpp"
 #include "statistics/proportion.hpp"
 #include "statistics/sample_interval.hpp"
 
@@ -75,6 +78,19 @@ bool answer(std::istringstream& words) {
     double level = 0.0;
     words >> mean >> std >> n >> level;
     print(mean_interval(mean, std, n, level));
+  } else if (kind == "mcnemar") {
+    PairedCounts counts;
+    words >> counts.a_only >> counts.b_only;
+    const McNemarTest test = mcnemar_test(counts);
+    print({test.p_value, test.mid_p_value});
+  } else if (kind == "tango") {
+    PairedCounts counts;
+    std::uint64_t pairs = 0;
+    double level = 0.0;
+    words >> counts.a_only >> counts.b_only >> pairs >> level;
+    counts.neither = pairs - counts.a_only - counts.b_only;
+    const DifferenceInterval found = tango_interval(counts, level);
+    print({found.low, found.high});
   } else {
     return false;
   }

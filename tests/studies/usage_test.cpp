@@ -12,7 +12,7 @@ using ::testing::HasSubstr;
 
 TEST(Usage, HelpOfTheProgramAndOfEveryCommandShowsExamples) {
   for (const std::vector<std::string>& command :
-       std::vector<std::vector<std::string>>{{}, {"run"}, {"validate"}, {"show"}, {"replay"}, {"export"}}) {
+       std::vector<std::vector<std::string>>{{}, {"run"}, {"validate"}, {"show"}, {"replay"}, {"export"}, {"compare"}}) {
     for (const char* flag : {"--help", "-h"}) {
       std::vector<std::string> arguments = command;
       arguments.emplace_back(flag);
@@ -67,6 +67,9 @@ TEST(Usage, EveryMistakeExitsWithTwoAndSaysWhatIsWrong) {
       {{"replay", scratch / "x.h5"}, "--trial is required"},
       {{"replay", scratch / "x.h5", "--trial", "0", "-o", scratch / "x.txt"}, ".csv or .json"},
       {{"export", scratch / "x.h5"}, "--output is required"},
+      {{"compare", scratch / "x.h5"}, "B is required"},
+      {{"compare", scratch / "x.h5", scratch / "y.h5", "--list", "-1"}, "--list"},
+      {{"compare", scratch / "x.h5", scratch / "y.h5", "--list", "100001"}, "--list"},
       {{"export", scratch / "x.h5", "-o", scratch / "x.json"}, ".csv"},
   };
   for (const Misuse& misuse : misuses) {
