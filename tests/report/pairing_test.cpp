@@ -35,11 +35,11 @@ std::vector<std::string> reasons(const Finished& a, const Finished& b) {
 TEST(SpecDifferences, NameEachPlaceWithBothValues) {
   const Study a = decode_study(R"({"controller": {"realignment": "never"}, "plant": {"m1": {"uniform": [1, 2]}}})", {});
   const Study b = decode_study(R"({"horizon": 100, "plant": {"m1": {"uniform": [1, 3]}, "m2": 2}})", {});
-  EXPECT_THAT(spec_differences(a, b),
-              ElementsAre(SpecDifference{"/controller/realignment", "\"never\"", "\"after_cycle\""},
-                          SpecDifference{"/horizon", "300", "100"},
-                          SpecDifference{"/plant/m1/uniform", "[1,2]", "[1,3]"},
-                          SpecDifference{"/plant/m2", "1", "2"}));
+  EXPECT_THAT(
+      spec_differences(a, b),
+      ElementsAre(SpecDifference{"/controller/realignment", "\"never\"", "\"after_cycle\""},
+                  SpecDifference{"/horizon", "300", "100"}, SpecDifference{"/plant/m1/uniform", "[1,2]", "[1,3]"},
+                  SpecDifference{"/plant/m2", "1", "2"}));
 }
 
 TEST(SpecDifferences, LeaveOutWhatDecidesNoOutcome) {
