@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <array>
 #include <memory>
 
 #include "commands.hpp"
@@ -20,7 +19,6 @@ constexpr const char* epilogue = R"(Examples:
 Exits 0 when the spec is valid, 2 with every mistake on standard error when it is not.)";
 
 std::string describe(const Study& study) {
-  static constexpr std::array<std::string_view, 3> methods{"monte_carlo", "grid", "explicit"};
   const Plan plan(study);
   std::string text = fmt::format("{}: a valid study\n", printable(study.name));
   text += fmt::format("  id          {}\n", study_id(study));
@@ -28,8 +26,8 @@ std::string describe(const Study& study) {
   if (plan.cells() > 1)
     text +=
         fmt::format(" ({} cells of {})", readable_count(plan.cells()), readable_count(plan.trials() / plan.cells()));
-  text += fmt::format("\n  sampling    {}", methods[static_cast<std::size_t>(study.sampling.method)]);
-  if (study.sampling.method == SamplingMethod::monte_carlo) text += fmt::format(", seed {}", study.sampling.seed);
+  text += fmt::format("\n  sampling    {}", sampling_method_names[static_cast<std::size_t>(study.sampling.method)]);
+  if (draws(study.sampling.method)) text += fmt::format(", seed {}", study.sampling.seed);
   text += fmt::format("\n  varying     {}\n",
                       plan.varying().empty() ? "nothing" : fmt::format("{}", fmt::join(plan.varying(), ", ")));
   text += fmt::format("  integrator  {}, tolerance {}\n",

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace steerstat {
 
@@ -15,6 +16,11 @@ class Design {
   /// @param variable  position in the design's list of names
   /// @return the draw's coordinate for that variable, in (0, 1).
   [[nodiscard]] virtual double coordinate(std::uint64_t draw, std::size_t variable) const = 0;
+
+  /// Writes all of a draw's coordinates, the bits that coordinate() returns. @param point  (variables)
+  virtual void place(std::uint64_t draw, std::span<double> point) const {
+    for (std::size_t variable = 0; variable < point.size(); ++variable) point[variable] = coordinate(draw, variable);
+  }
 };
 
 }  // namespace steerstat

@@ -10,4 +10,9 @@ namespace steerstat {
 /// Sources: the series of [Marsaglia 2004] in the middle, Laplace's continued fraction in the tails [NIST 2010, 7.9].
 double normal_probability(double z);
 
+/// The same within a relative error of 2e-15, by other bits, in tens of nanoseconds: for draws.
+///
+/// Sources: the rational approximations of [Cody 1969].
+double quick_normal_probability(double z);
+
 }  // namespace steerstat

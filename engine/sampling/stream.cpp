@@ -36,13 +36,17 @@ double unit_interval(std::uint64_t bits) {
   return (static_cast<double>(bits >> 12U) + 0.5) * 0x1p-52;
 }
 
-UniformStream::UniformStream(std::uint64_t seed, std::string_view name) : key_{low_half(seed), high_half(seed)} {
+BlockStream::BlockStream(std::uint64_t seed, std::string_view name) : key_{low_half(seed), high_half(seed)} {
   const std::uint64_t hash = name_hash(name);
   name_ = {low_half(hash), high_half(hash)};
 }
 
+std::array<std::uint32_t, 4> BlockStream::at(std::uint64_t index) const {
+  return philox({low_half(index), high_half(index), name_[0], name_[1]}, key_);
+}
+
 double UniformStream::at(std::uint64_t index) const {
-  const auto block = philox({low_half(index), high_half(index), name_[0], name_[1]}, key_);
+  const auto block = blocks_.at(index);
   return unit_interval((std::uint64_t{block[1]} << 32U) | block[0]);
 }
 

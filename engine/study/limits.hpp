@@ -15,6 +15,9 @@ inline constexpr std::uint64_t most_trials = 1'000'000'000;
 /// At most this many explicit trials.
 inline constexpr std::size_t most_explicit_trials = 100'000;
 
+/// At most this many correlations of two inputs.
+inline constexpr std::size_t most_correlations = 1'000;
+
 /// A discrete distribution has at most this many values.
 inline constexpr std::size_t most_discrete_values = 10'000;
 

@@ -4,10 +4,15 @@
 #include <array>
 #include <cassert>
 #include <optional>
+#include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "robot/plant.hpp"
+#include "sampling/correlated_design.hpp"
+#include "sampling/latin_hypercube.hpp"
 #include "sampling/monte_carlo.hpp"
+#include "sampling/sobol.hpp"
 #include "study/inputs.hpp"
 
 namespace steerstat {
@@ -59,6 +64,34 @@ void require_known_inputs(const Study& study) {
   }
 }
 
+static_assert(input_count <= SobolSequence::most_dimensions, "every input can be drawn by the method sobol");
+
+std::shared_ptr<const Design> independent_design(const Sampling& sampling, std::span<const std::string> names) {
+  if (sampling.method == SamplingMethod::latin_hypercube) {
+    return std::make_shared<LatinHypercube>(sampling.trials, sampling.seed, names);
+  }
+  if (sampling.method == SamplingMethod::sobol) return std::make_shared<Sobol>(sampling.seed, names);
+  return std::make_shared<MonteCarlo>(sampling.seed, names);
+}
+
+// @param names  of the inputs that are drawn
+std::shared_ptr<const Design> design_of(const Sampling& sampling, const std::vector<std::string>& names) {
+  auto independent = independent_design(sampling, names);
+  if (sampling.correlations.empty()) return independent;
+  std::vector<PairCorrelation> pairs;
+  for (const Correlation& correlation : sampling.correlations) {
+    const auto position = [&](const std::string& name) {
+      const auto found = std::find(names.begin(), names.end(), name);
+      if (found == names.end()) throw std::invalid_argument("Plan: " + name + " is correlated, but not drawn");
+      return static_cast<std::size_t>(found - names.begin());
+    };
+    pairs.push_back({position(correlation.first), position(correlation.second), correlation.coefficient});
+  }
+  const auto factor = factorise_correlation(names.size(), pairs);
+  if (!factor) throw std::invalid_argument("Plan: the correlations are not positive definite");
+  return std::make_shared<CorrelatedDesign>(std::move(independent), *factor);
+}
+
 }  // namespace
 
 Plan::Plan(const Study& study)
@@ -93,12 +126,14 @@ Plan::Plan(const Study& study)
     fields_.push_back(definition.field);
     sources_.push_back(*std::move(source));
   }
-  design_ = std::make_shared<MonteCarlo>(study.sampling.seed, drawn_names);
+  design_ = design_of(study.sampling, drawn_names);
+  coordinates_ = drawn_names.size();
 }
 
-double Plan::value_of(const Source& source, std::uint64_t draw, std::uint64_t cell) const {
+double Plan::value_of(const Source& source, std::span<const double> point, std::uint64_t draw,
+                      std::uint64_t cell) const {
   if (const auto* drawn = std::get_if<Drawn>(&source)) {
-    return drawn->scale * drawn->distribution.quantile(design_->coordinate(draw, drawn->coordinate));
+    return drawn->scale * drawn->distribution.quantile(point[drawn->coordinate]);
   }
   if (const auto* swept = std::get_if<Swept>(&source)) return swept->values[cells_.level(cell, swept->factor)];
   return listed_[draw * listed_columns_ + std::get<Listed>(source).column];
@@ -108,7 +143,10 @@ void Plan::draw(std::uint64_t index, std::span<double> values) const {
   assert(index < trials() && values.size() == sources_.size());
   const std::uint64_t draw = index / cells();
   const std::uint64_t cell = index % cells();
-  for (std::size_t i = 0; i < sources_.size(); ++i) values[i] = value_of(sources_[i], draw, cell);
+  std::array<double, input_count> coordinates;  // NOLINT(cppcoreguidelines-pro-type-member-init): place() fills it
+  const std::span<double> point(coordinates.data(), coordinates_);
+  design_->place(draw, point);
+  for (std::size_t i = 0; i < sources_.size(); ++i) values[i] = value_of(sources_[i], point, draw, cell);
 }
 
 TrialParameters Plan::parameters_with(std::span<const double> values) const {

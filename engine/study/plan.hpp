@@ -18,12 +18,13 @@ namespace steerstat {
 /// The trials of a study, by index.
 ///
 /// Trial `index` is draw `index / cells()` in cell `index % cells()`: all cells share the draws (common random
-/// numbers), and a study with more draws begins with the trials of one with fewer. Immutable, so safe to share
-/// between threads.
+/// numbers), and a study with more draws begins with the trials of one with fewer (but for a
+/// Latin hypercube, whose strata depend on their number). Immutable, so safe to share between threads.
 class Plan {
  public:
   /// @throws std::invalid_argument for a study that decode_study() would not return: an input that does not exist or
-  ///         has two sources of values, or a table of explicit trials with the wrong number of values
+  ///         has two sources of values, a table of explicit trials with the wrong number of values, or correlations of
+  ///         inputs that are not drawn or that are not positive definite
   explicit Plan(const Study& study);
 
   [[nodiscard]] std::uint64_t trials() const { return draws_ * cells(); }
@@ -67,7 +68,8 @@ class Plan {
   };
   using Source = std::variant<Drawn, Swept, Listed>;
 
-  [[nodiscard]] double value_of(const Source& source, std::uint64_t draw, std::uint64_t cell) const;
+  [[nodiscard]] double value_of(const Source& source, std::span<const double> point, std::uint64_t draw,
+                                std::uint64_t cell) const;
 
   std::vector<std::string> names_;  // (varying)
   std::vector<Field> fields_;       // (varying)
@@ -76,6 +78,7 @@ class Plan {
   std::uint64_t draws_;
   Factorial cells_;
   std::shared_ptr<const Design> design_;
+  std::size_t coordinates_;     // of the design
   std::vector<double> listed_;  // (draws x listed_columns_), explicit trials only
   std::size_t listed_columns_{0};
 };

@@ -22,6 +22,7 @@ std::vector<std::string_view> places_in_spec() {
                                        "sampling.trials",
                                        "sampling.seed",
                                        "sampling.file",
+                                       "sampling.correlation",
                                        "controller.realignment",
                                        "retain.trajectories",
                                        "intervals.method",

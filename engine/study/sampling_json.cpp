@@ -7,26 +7,17 @@
 #include <limits>
 #include <utility>
 
+#include "study/correlation_json.hpp"
 #include "study/explicit_csv.hpp"
 #include "study/limits.hpp"
 
 namespace steerstat {
 namespace {
 
-constexpr std::array<std::string_view, 3> method_names{"monte_carlo", "grid", "explicit"};
-constexpr std::array<std::string_view, 2> later_method_names{"latin_hypercube", "sobol"};
-
 std::optional<SamplingMethod> decode_method(const Reader& reader) {
   const auto member = reader.find("method");
   if (!member) return SamplingMethod::monte_carlo;
-  for (const std::string_view name : later_method_names) {
-    if (member->value() == name) {
-      member->fail(fmt::format("this version does not have the method {} (one of {}); use monte_carlo", name,
-                               listed(method_names)));
-      return std::nullopt;
-    }
-  }
-  const auto position = member->one_of(method_names);
+  const auto position = member->one_of(sampling_method_names);
   if (!position) return std::nullopt;
   return static_cast<SamplingMethod>(*position);
 }
@@ -125,16 +116,27 @@ void decode_explicit(const Reader& reader, const std::filesystem::path& director
 
 }  // namespace
 
-Sampling decode_sampling(const Reader& reader, const std::filesystem::path& directory) {
+Sampling decode_sampling(const Reader& reader, const std::filesystem::path& directory, std::span<const Input> inputs,
+                         std::span<const std::string> mistaken) {
   Sampling sampling;
   if (!reader.require_object("an object {\"method\", \"trials\", \"seed\"}")) return sampling;
-  static constexpr std::array<std::string_view, 4> known{"method", "trials", "seed", "file"};
+  static constexpr std::array<std::string_view, 5> known{"method", "trials", "seed", "file", "correlation"};
   reader.refuse_unknown_keys(known);
   if (const auto seed = reader.find("seed")) {
     sampling.seed = seed->integer(0, std::numeric_limits<std::uint64_t>::max()).value_or(sampling.seed);
   }
   const auto method = decode_method(reader);
   sampling.method = method.value_or(sampling.method);
+  if (const auto correlation = reader.find("correlation")) {
+    if (draws(sampling.method)) {
+      sampling.correlations = decode_correlations(*correlation, inputs, mistaken);
+    } else {
+      correlation->fail(
+          fmt::format("the method {} draws nothing (only what distributions draw is correlated); remove "
+                      "it, or use monte_carlo, latin_hypercube or sobol",
+                      sampling_method_names[static_cast<std::size_t>(sampling.method)]));
+    }
+  }
   if (method == SamplingMethod::explicit_trials) {
     decode_explicit(reader, directory, sampling);
     return sampling;
@@ -155,9 +157,10 @@ Sampling decode_sampling(const Reader& reader, const std::filesystem::path& dire
 
 nlohmann::json encode_sampling(const Sampling& sampling) {
   nlohmann::json object;
-  object["method"] = method_names[static_cast<std::size_t>(sampling.method)];
+  object["method"] = sampling_method_names[static_cast<std::size_t>(sampling.method)];
   object["seed"] = sampling.seed;
-  if (sampling.method == SamplingMethod::monte_carlo) object["trials"] = sampling.trials;
+  if (draws(sampling.method)) object["trials"] = sampling.trials;
+  if (!sampling.correlations.empty()) object["correlation"] = encode_correlations(sampling.correlations);
   if (sampling.method != SamplingMethod::explicit_trials) return object;
   auto rows = nlohmann::json::array();
   const std::size_t columns = sampling.explicit_names.size();

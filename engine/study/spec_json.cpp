@@ -62,7 +62,7 @@ class Decoder {
     if (const auto integrator = root_.find("integrator")) decode_integrator(*integrator);
     if (const auto sampling = root_.find("sampling")) {
       const std::size_t start = errors_.size();
-      study_.sampling = decode_sampling(*sampling, directory_);
+      study_.sampling = decode_sampling(*sampling, directory_, study_.inputs, mistaken_);
       if (errors_.size() != start) mistaken_.emplace_back("sampling");
     }
     if (const auto retain = root_.find("retain")) decode_retention(*retain);

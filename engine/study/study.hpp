@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -31,13 +33,31 @@ struct Input {
   friend bool operator==(const Input&, const Input&) = default;
 };
 
-enum class SamplingMethod : std::uint8_t { monte_carlo, grid, explicit_trials };
+enum class SamplingMethod : std::uint8_t { monte_carlo, latin_hypercube, sobol, grid, explicit_trials };
+
+/// As a spec spells them.
+inline constexpr std::array<std::string_view, 5> sampling_method_names{"monte_carlo", "latin_hypercube", "sobol",
+                                                                       "grid", "explicit"};
+
+/// Whether the method draws values from distributions.
+constexpr bool draws(SamplingMethod method) {
+  return method != SamplingMethod::grid && method != SamplingMethod::explicit_trials;
+}
+
+/// How two inputs with distributions go together: the correlation of the normal variables behind them.
+struct Correlation {
+  std::string first;  ///< before `second` in the order of input_names()
+  std::string second;
+  double coefficient;  ///< in (-1, 1), not 0
+  friend bool operator==(const Correlation&, const Correlation&) = default;
+};
 
 /// How the inputs' values are drawn.
 struct Sampling {
   SamplingMethod method{SamplingMethod::monte_carlo};
   std::uint64_t trials{1};  ///< draws a cell; 1 for a grid
   std::uint64_t seed{1};
+  std::vector<Correlation> correlations;    ///< in the order of input_names(); positive definite
   std::vector<std::string> explicit_names;  ///< explicit: the inputs that the rows set
   std::vector<double> explicit_values;      ///< explicit: (trials x explicit_names), row by row
 

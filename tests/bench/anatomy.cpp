@@ -25,7 +25,9 @@ Part part_of(std::string_view name) {
         {"first_crossing", "refine", "::sample(", "locate_guard", "JointSeries", "take_lane", "::search("}},
        {Part::supervisor, {"steerstat::decide"}},
        {Part::runner, {"LockstepRunner", "Kernel<", "LockstepEngine"}},
-       {Part::draws, {"Plan", "Distribution", "MonteCarlo", "Factorial", "normal_"}}}};
+       {Part::draws,
+        {"Plan", "Distribution", "MonteCarlo", "LatinHypercube", "Permutation", "Sobol", "NestedScrambling",
+         "CorrelatedDesign", "Factorial", "normal_"}}}};
   for (const Rule& rule : rules) {
     for (std::string_view word : rule.words) {
       if (name.find(word) != std::string_view::npos) return rule.part;

@@ -33,6 +33,7 @@ LIBRARIES = [
     ("SUNDIALS", r"(sundials|cvodes?|arkode|idas?|kinsol|nvector|sunmatrix|sunlinsol|sunnonlinsol)/",
      "only in integrate/", r"engine/integrate/.*"),
     ("Boost", r"boost/", "only in statistics/", r"engine/statistics/.*"),
+    ("Eigen", r"(Eigen|unsupported/Eigen)/", "only in sampling/", r"engine/sampling/.*"),
     ("nlohmann-json", r"nlohmann/", "only in *_json.*, server/ and studies/",
      r"engine/.*_json\.\w+|server/.*|studies/.*"),
     ("cpp-httplib", r"httplib", "only in server/", r"server/.*"),

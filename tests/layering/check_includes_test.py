@@ -78,6 +78,10 @@ class LibraryRules(unittest.TestCase):
                        "<sunnonlinsol/sunnonlinsol_fixedpoint.h>", "<arkode/arkode.h>"):
             self.assert_only_in(header, ["engine/integrate/a.cpp"], ["engine/trial/a.cpp", "studies/a.cpp"])
 
+    def test_eigen_is_only_in_sampling(self):
+        for header in ("<Eigen/Cholesky>", "<unsupported/Eigen/MatrixFunctions>"):
+            self.assert_only_in(header, ["engine/sampling/a.cpp"], ["engine/robot/a.cpp", "studies/a.cpp"])
+
     def test_json_is_only_in_json_files_and_programs(self):
         self.assert_only_in("<nlohmann/json.hpp>",
                             ["engine/study/spec_json.cpp", "engine/report/summary_json.hpp", "server/a.cpp",

@@ -15,17 +15,37 @@ long double reference(double z) {
   return 0.5L * std::erfc(-static_cast<long double>(z) / std::numbers::sqrt2_v<long double>);
 }
 
-double worst_relative_error(double from, double to) {
+double worst_relative_error(double (*probability)(double), double from, double to) {
   double worst = 0.0;
   for (double z = from; z < to; z += 0.000937) {
     const long double expected = reference(z);
-    worst = std::max(worst, static_cast<double>(std::abs((normal_probability(z) - expected) / expected)));
+    worst = std::max(worst, static_cast<double>(std::abs((probability(z) - expected) / expected)));
   }
   return worst;
 }
 
 TEST(NormalProbability, HasTheStatedRelativeError) {
-  EXPECT_LT(worst_relative_error(-37.0, 9.0), 2e-15);
+  EXPECT_LT(worst_relative_error(normal_probability, -37.0, 9.0), 2e-15);
+}
+
+TEST(QuickNormalProbability, HasTheStatedRelativeError) {
+  EXPECT_LT(worst_relative_error(quick_normal_probability, -37.0, 9.0), 2e-15);
+}
+
+TEST(QuickNormalProbability, ReachesBothEndsAndPassesNotANumberOn) {
+  EXPECT_EQ(quick_normal_probability(0.0), 0.5);
+  EXPECT_EQ(quick_normal_probability(-INFINITY), 0.0);
+  EXPECT_EQ(quick_normal_probability(INFINITY), 1.0);
+  EXPECT_TRUE(std::isnan(quick_normal_probability(NAN)));
+}
+
+TEST(QuickNormalProbability, ItsApproximationsMeetWithoutAStep) {
+  for (const double z : {-0x1.6a09e667f3bcdp+2, -0.66291, 0.66291}) {
+    const double below = quick_normal_probability(std::nextafter(z, -INFINITY));
+    const double above = quick_normal_probability(std::nextafter(z, INFINITY));
+    const double rise = 2.0 * std::abs(z) * std::abs(z) * 0x1p-52;  // of ln P below 0 over two neighbours
+    EXPECT_NEAR(above / below, 1.0, 4e-15 + rise) << z;
+  }
 }
 
 TEST(NormalProbability, MatchesPublishedValues) {

@@ -3,7 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <set>
+#include <string>
+#include <vector>
 
 namespace steerstat {
 namespace {
@@ -104,6 +108,12 @@ TEST(Range, SupportsFitWhenEveryDrawDoes) {
   EXPECT_TRUE(range_of("initial_state.q1").contains(Support{-INFINITY, INFINITY}));
   EXPECT_FALSE(range_of("controller.contraction.eta1").contains(Support{0.5, 1.0}));
   EXPECT_FALSE(range_of("controller.contraction.eta1").contains(never_zero));
+}
+
+TEST(Inputs, AreWhatTheSchemaLetsASpecCorrelate) {
+  std::ifstream file(STEERSTAT_SOURCE_DIR "/schemas/study.schema.json");
+  const auto schema = nlohmann::json::parse(file);
+  EXPECT_EQ(schema["$defs"]["input_name"]["enum"].get<std::vector<std::string>>(), input_names());
 }
 
 }  // namespace

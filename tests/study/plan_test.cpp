@@ -7,7 +7,10 @@
 #include <map>
 #include <set>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
+#include "sampling/sobol.hpp"
 #include "sampling/stream.hpp"
 #include "study/inputs.hpp"
 #include "study/spec_json.hpp"
@@ -111,6 +114,52 @@ TEST(Plan, AnotherVaryingInputChangesNoDrawOfTheFirst) {
   }
 }
 
+TEST(Plan, ASobolDesignWithMoreTrialsBeginsWithTheTrialsOfFewer) {
+  const std::string spec = R"({"plant": {"m1": {"uniform": [0.8, 1.2]}, "m2": {"sweep": [0.9, 1]}, "f1": {"uniform":
+      [0, 0.05]}}, "sampling": {"method": "sobol", "correlation": [["plant.m1", "plant.f1", 0.5]], "trials": )";
+  const Plan few = plan_of(spec + "128}}");
+  const Plan many = plan_of(spec + "256}}");
+  for (std::uint64_t i = 0; i < few.trials(); ++i) EXPECT_EQ(values_of(few, i), values_of(many, i)) << i;
+}
+
+TEST(Plan, SobolDrawsAreTheDesignsInTheOrderOfTheInputs) {
+  const Plan plan = plan_of(R"({"initial_state": {"q1": {"uniform": [0, 1]}}, "plant": {"m1": {"uniform": [1, 2]}},
+      "sampling": {"method": "sobol", "trials": 100, "seed": 9}})");
+  const Sobol design(9, std::vector<std::string>{"plant.m1", "initial_state.q1"});
+  for (std::uint64_t i = 0; i < 100; ++i) {
+    EXPECT_THAT(values_of(plan, i), ElementsAre(Uniform{1.0, 2.0}.quantile(design.coordinate(i, 0)),
+                                                Uniform{0.0, 1.0}.quantile(design.coordinate(i, 1))));
+  }
+}
+
+TEST(Plan, ALatinHypercubesStrataAreThoseOfItsTrialsInEveryCell) {
+  const Plan plan = plan_of(R"({"plant": {"m1": {"uniform": [1, 2]}, "m2": {"sweep": [1, 2, 3]}},
+      "sampling": {"method": "latin_hypercube", "trials": 50}})");
+  ASSERT_EQ(plan.trials(), 150U);
+  std::map<std::uint64_t, std::set<double>> strata;
+  for (std::uint64_t i = 0; i < plan.trials(); ++i) {
+    strata[plan.cell_of(i)].insert(std::floor(50.0 * (values_of(plan, i)[0] - 1.0)));
+  }
+  ASSERT_EQ(strata.size(), 3U);
+  for (const auto& cell : strata) EXPECT_EQ(cell.second.size(), 50U);
+}
+
+TEST(Plan, CorrelationsChangeTheirOwnInputsAloneAndNotTheFirstOfThem) {
+  const std::string inputs = R"({"plant": {"m1": {"uniform": [0.8, 1.2]}, "m2": {"uniform": [0.8, 1.2]},
+      "f2": {"uniform": [0, 0.05]}}, "initial_state": {"q1": {"normal": {"mean": 0, "std": 1}}},
+      "sampling": {"trials": 50)";
+  for (const std::string method : {"monte_carlo", "latin_hypercube", "sobol"}) {
+    const std::string spec = inputs + R"(, "method": ")" + method + '"';
+    const Plan independent = plan_of(spec + "}}");
+    const Plan correlated = plan_of(spec + R"(, "correlation": [["plant.f2", "plant.m2", 0.7]]}})");
+    for (std::uint64_t i = 0; i < 50; ++i) {
+      const auto before = values_of(independent, i);
+      const auto after = values_of(correlated, i);
+      EXPECT_THAT(after, ElementsAre(before[0], before[1], ::testing::Ne(before[2]), before[3])) << method;
+    }
+  }
+}
+
 TEST(Plan, AllCellsShareTheDraws) {
   const Plan plan = plan_of(R"({"plant": {"m1": {"uniform": [0.8, 1.2]}}, "controller": {"contraction":
       {"eta1": {"sweep": [0.3, 0.5, 0.7]}, "eta2": {"sweep": [0.4, 0.6]}}}, "sampling": {"trials": 5}})");
@@ -203,6 +252,14 @@ TEST(Plan, RefusesAStudyThatNoSpecGives) {
   Study twice = study_of(R"({"sampling": {"method": "explicit", "trials": [{"plant.m1": 1}]}})");
   twice.inputs.front().value = Sweep{{1.0, 2.0}};
   EXPECT_THROW(Plan{twice}, std::invalid_argument);
+
+  Study fixed = study_of(R"({"plant": {"m1": {"uniform": [0.8, 1.2]}}})");
+  fixed.sampling.correlations.push_back({"plant.m1", "plant.m2", 0.5});
+  EXPECT_THROW(Plan{fixed}, std::invalid_argument);
+
+  Study contradictory = study_of(R"({"plant": {"m1": {"uniform": [0.8, 1.2]}, "m2": {"uniform": [0.8, 1.2]}}})");
+  contradictory.sampling.correlations.push_back({"plant.m1", "plant.m2", 1.0});
+  EXPECT_THROW(Plan{contradictory}, std::invalid_argument);
 }
 
 }  // namespace
