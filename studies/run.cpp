@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "commands.hpp"
@@ -16,6 +17,7 @@
 #include "progress_display.hpp"
 #include "report/readable.hpp"
 #include "report/summary.hpp"
+#include "run_approximation.hpp"
 #include "simd_choice.hpp"
 #include "spec_file.hpp"
 #include "store/result_file.hpp"
@@ -115,9 +117,22 @@ bool write_outputs(const Request& request, const Study& study, const StudyResult
   return kept && summarised && printed;
 }
 
+/// The kind of study that has no trials to keep.
+ExitCode run_of_approximation(const ApproximationStudy& study, const Request& request) {
+  if (request.result) {
+    throw BadUsage("-o: an approximation study keeps no trials (its cycles are no trials); use --summary FILE");
+  }
+  check_outputs(request);
+  return run_approximation_study(study, request.summary);
+}
+
 ExitCode run(const Request& request) {
   const InstructionSet simd = request.simd ? choose_simd(*request.simd) : best_instruction_set();
-  const Study study = read_study(request.spec);
+  const std::variant<Study, ApproximationStudy> spec = read_any_study(request.spec);
+  if (const auto* approximation = std::get_if<ApproximationStudy>(&spec)) {
+    return run_of_approximation(*approximation, request);
+  }
+  const Study& study = std::get<Study>(spec);
   check_outputs(request);
   const Interruption interruption;  // to the end: an interrupt must not cost the outputs of a run that is over
   const StudyResult result = run_trials(study, request, simd, interruption);

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "core/errors.hpp"
+#include "study/approximation_json.hpp"
 #include "study/spec_json.hpp"
 
 namespace steerstat {
@@ -49,14 +50,14 @@ std::string read_spec(const std::string& name) {
   return read_all(file.get(), name);
 }
 
-}  // namespace
-
-Study read_study(const std::string& name) {
+/// Decodes with decode(text, directory). @throws BadUsage with every mistake, one a line
+template <class Decode>
+auto decode_file(const std::string& name, const Decode& decode) {
   const std::string text = read_spec(name);
   const std::filesystem::path parent =
       name == "-" ? std::filesystem::path() : std::filesystem::path(name).parent_path();
   try {
-    return decode_study(text, parent.empty() ? "." : parent);
+    return decode(text, parent.empty() ? "." : parent);
   } catch (const BadSpec& bad) {
     const std::size_t count = bad.errors().size();
     std::string message = fmt::format("{} is not a valid study: {} mistake{}, nothing was run",
@@ -68,6 +69,16 @@ Study read_study(const std::string& name) {
     }
     throw BadUsage(message);
   }
+}
+
+}  // namespace
+
+Study read_study(const std::string& name) {
+  return decode_file(name, decode_study);
+}
+
+std::variant<Study, ApproximationStudy> read_any_study(const std::string& name) {
+  return decode_file(name, decode_any_study);
 }
 
 }  // namespace steerstat

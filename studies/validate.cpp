@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <variant>
 
 #include "commands.hpp"
 #include "output.hpp"
@@ -36,6 +37,13 @@ std::string describe(const Study& study) {
   return text;
 }
 
+std::string describe(const ApproximationStudy& study) {
+  const CyclePlan plan(study);
+  return fmt::format("{}: a valid approximation study\n  cycles      {} ({} cells of {})\n  sampling    seed {}\n",
+                     printable(study.name), readable_count(plan.cells() * plan.draws()), readable_count(plan.cells()),
+                     readable_count(plan.draws()), study.seed);
+}
+
 }  // namespace
 
 void add_validate(CLI::App& program, ExitCode& exit_code) {
@@ -44,7 +52,8 @@ void add_validate(CLI::App& program, ExitCode& exit_code) {
   command->add_option("SPEC", *spec, "The study's JSON file; - reads standard input")->required()->option_text(" ");
   command->footer(epilogue);
   command->callback([spec, &exit_code] {
-    print(describe(read_study(*spec)));
+    const std::variant<Study, ApproximationStudy> study = read_any_study(*spec);
+    print(std::visit([](const auto& of_its_kind) { return describe(of_its_kind); }, study));
     exit_code = ExitCode::done;
   });
 }

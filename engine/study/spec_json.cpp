@@ -47,6 +47,7 @@ class Decoder {
   Study decode() {
     if (!root_.require_object("an object: a study spec is {...}")) return study_;
     refuse_unknown_keys();
+    if (const auto kind = root_.find("kind")) decode_kind(*kind);
     if (const auto name = root_.find("name")) decode_name(*name);
     const std::size_t before = errors_.size();
     if (const auto nominal = root_.find("nominal")) decode_nominal(*nominal);
@@ -74,15 +75,22 @@ class Decoder {
 
  private:
   void refuse_unknown_keys() {
-    static constexpr std::array<std::string_view, 12> known{"name",     "nominal",    "plant",   "initial_state",
-                                                            "goal",     "controller", "horizon", "integrator",
-                                                            "sampling", "retain",     "audit",   "intervals"};
+    static constexpr std::array<std::string_view, 13> known{
+        "kind",    "name",       "nominal",  "plant",  "initial_state", "goal",     "controller",
+        "horizon", "integrator", "sampling", "retain", "audit",         "intervals"};
     root_.refuse_unknown_keys(known, later_keys);
     for (const std::string_view key : later_keys) {
       if (const auto member = root_.find(key)) {
         member->fail(fmt::format("this version has no \"{}\" (every trial runs, nothing is judged); remove it", key));
       }
     }
+  }
+
+  static void decode_kind(const Reader& reader) {
+    static constexpr std::array<std::string_view, 2> names{"stabilisation", "approximation"};
+    const auto position = reader.one_of(names);
+    if (!position || *position == 0) return;
+    reader.fail("an approximation study (only stabilisation studies are taken here); steerstat run takes both");
   }
 
   void decode_name(const Reader& reader) {
