@@ -54,9 +54,16 @@ class Reasons {
   // A seed decides nothing where nothing is drawn, but then the studies have one draw or list their trials.
   void sampling() {
     for (const SpecDifference& difference : differences_) {
-      if (difference.pointer.starts_with("/sampling/") || is_at_or_below(difference.pointer, "/correlation")) {
+      if (difference.pointer.starts_with("/sampling/")) {
         reasons_.push_back(sides(difference) + " (the same draws need the same sampling); run both with one of them");
       }
+    }
+    if (a_.sampling.method == SamplingMethod::latin_hypercube && b_.sampling.method == a_.sampling.method &&
+        a_.sampling.trials != b_.sampling.trials) {
+      reasons_.push_back(fmt::format(
+          "/sampling/trials: {} in A, {} in B (the draws of a Latin hypercube depend on how many there are); "
+          "run both with as many",
+          a_.sampling.trials, b_.sampling.trials));
     }
   }
 

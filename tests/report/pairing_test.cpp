@@ -1,5 +1,6 @@
 #include "report/pairing.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -99,6 +100,29 @@ TEST(PairTrials, RefusesWithEveryReasonAtOnce) {
                           HasSubstr("/plant/m1/uniform: [0.8,1.2] in A, [0.8,1.3] in B"),
                           HasSubstr("/plant/m2: drawn in A alone"), HasSubstr("/plant/f1: drawn in B alone"),
                           HasSubstr("the sweeps differ: none in A, 2 cells of controller.swing.speed in B")));
+}
+
+TEST(PairTrials, PairsExtensibleDesignsOfAnySizeAndLatinHypercubesOfOne) {
+  const auto of = [](const char* method, int trials) {
+    return finished(fmt::format(R"({{"plant": {{"m1": {{"uniform": [0.8, 1.2]}}, "m2": {{"uniform": [1, 2]}}}},
+                                    "sampling": {{"method": "{}", "trials": {}}}}})",
+                                method, trials));
+  };
+  EXPECT_THAT(pair_up(of("sobol", 16), of("sobol", 32)).rows, SizeIs(16));
+  EXPECT_THAT(pair_up(of("latin_hypercube", 16), of("latin_hypercube", 16)).rows, SizeIs(16));
+  EXPECT_THAT(reasons(of("latin_hypercube", 16), of("latin_hypercube", 32)),
+              ElementsAre(HasSubstr("/sampling/trials: 16 in A, 32 in B")));
+}
+
+TEST(PairTrials, RefusesOtherCorrelations) {
+  const auto of = [](double correlation) {
+    return finished(fmt::format(
+        R"({{"plant": {{"m1": {{"uniform": [0.8, 1.2]}}, "m2": {{"uniform": [1, 2]}}}},
+             "sampling": {{"trials": 8, "correlation": [["plant.m1", "plant.m2", {}]]}}}})",
+        correlation));
+  };
+  EXPECT_THAT(pair_up(of(0.5), of(0.5)).rows, SizeIs(8));
+  EXPECT_THAT(reasons(of(0.5), of(0.6)), ElementsAre(HasSubstr("/sampling/correlation: [[")));
 }
 
 TEST(PairTrials, RefusesAnotherMethodAndOtherListedInputs) {
