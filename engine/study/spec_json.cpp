@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "core/elementary.hpp"
 #include "study/input_json.hpp"
@@ -75,10 +76,12 @@ class Decoder {
 
  private:
   void refuse_unknown_keys() {
-    static constexpr std::array<std::string_view, 13> known{
-        "kind",    "name",       "nominal",  "plant",  "initial_state", "goal",     "controller",
-        "horizon", "integrator", "sampling", "retain", "audit",         "intervals"};
-    root_.refuse_unknown_keys(known, later_keys);
+    static constexpr std::array<std::string_view, 12> known{"name",     "nominal",    "plant",   "initial_state",
+                                                            "goal",     "controller", "horizon", "integrator",
+                                                            "sampling", "retain",     "audit",   "intervals"};
+    std::vector<std::string_view> spoken_for(later_keys.begin(), later_keys.end());
+    spoken_for.emplace_back("kind");
+    root_.refuse_unknown_keys(known, spoken_for);
     for (const std::string_view key : later_keys) {
       if (const auto member = root_.find(key)) {
         member->fail(fmt::format("this version has no \"{}\" (every trial runs, nothing is judged); remove it", key));
