@@ -11,8 +11,8 @@ namespace {
 using ::testing::HasSubstr;
 
 TEST(Usage, HelpOfTheProgramAndOfEveryCommandShowsExamples) {
-  for (const std::vector<std::string>& command :
-       std::vector<std::vector<std::string>>{{}, {"run"}, {"validate"}, {"show"}, {"replay"}, {"export"}, {"compare"}}) {
+  for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+           {}, {"run"}, {"validate"}, {"show"}, {"replay"}, {"export"}, {"compare"}}) {
     for (const char* flag : {"--help", "-h"}) {
       std::vector<std::string> arguments = command;
       arguments.emplace_back(flag);
