@@ -15,17 +15,20 @@ WRITE_DESIGN_POINTS = None
 SEEDS = 60
 
 
-def points(design, dimensions, count, *seed):
-    output = subprocess.run([WRITE_DESIGN_POINTS, design, str(dimensions), str(count), *map(str, seed)],
-                            check=True, capture_output=True, text=True).stdout
-    values = np.array([[float.fromhex(x) for x in line.split()] for line in output.splitlines()])
-    assert values.shape == (count, dimensions)
-    return values
+def points(design, dimensions, count, seeds):
+    """(seeds x count x dimensions) the points of our designs of seeds 0, 1, ..."""
+    output = subprocess.run([WRITE_DESIGN_POINTS, design, str(dimensions), str(count), str(seeds)], check=True,
+                            capture_output=True, text=True).stdout
+    return np.array([float.fromhex(x) for x in output.split()]).reshape(seeds, count, dimensions)
 
 
-def discrepancies(sample):
-    """Squared centred discrepancies of a sample a seed, of points that the second half of the cube tells apart too."""
-    return np.array([qmc.discrepancy(sample(seed), method="CD") for seed in range(SEEDS)])
+def discrepancies(samples):
+    """(samples) squared centred discrepancies."""
+    return np.array([qmc.discrepancy(sample, method="CD") for sample in samples])
+
+
+def our_discrepancies(design, dimensions, count):
+    return discrepancies(points(design, dimensions, count, SEEDS))
 
 
 class Designs(unittest.TestCase):
@@ -34,7 +37,7 @@ class Designs(unittest.TestCase):
         self.assertLess(abs(ours.mean() - theirs.mean()), 4.5 * error)
 
     def test_the_sequence_is_scipys_point_by_point_in_every_dimension(self):
-        ours = points("sequence", 101, 4096)
+        ours, = points("sequence", 101, 4096, 1)
         theirs = qmc.Sobol(101, scramble=False).random(4096)
         self.assertTrue(np.array_equal(ours, theirs))
 
@@ -42,21 +45,19 @@ class Designs(unittest.TestCase):
         # scipy scrambles by random matrices and shifts. Pairs of points, and so the mean of a squared discrepancy,
         # have the same law under both [Matousek 1998].
         for dimensions in (2, 5, 8):
-            ours = discrepancies(lambda seed: points("sobol", dimensions, 128, seed))
-            theirs = discrepancies(lambda seed: qmc.Sobol(dimensions, seed=seed).random(128))
-            self.assert_same_mean(ours, theirs)
+            theirs = discrepancies(qmc.Sobol(dimensions, seed=seed).random(128) for seed in range(SEEDS))
+            self.assert_same_mean(our_discrepancies("sobol", dimensions, 128), theirs)
 
     def test_latin_hypercubes_have_the_discrepancy_that_scipys_have(self):
         for dimensions in (2, 5):
             for count in (5, 64):
-                ours = discrepancies(lambda seed: points("latin_hypercube", dimensions, count, seed))
-                theirs = discrepancies(lambda seed: qmc.LatinHypercube(dimensions, seed=seed).random(count))
-                self.assert_same_mean(ours, theirs)
+                theirs = discrepancies(qmc.LatinHypercube(dimensions, seed=s).random(count) for s in range(SEEDS))
+                self.assert_same_mean(our_discrepancies("latin_hypercube", dimensions, count), theirs)
 
     def test_designs_are_ordered_by_discrepancy(self):
-        sobol = discrepancies(lambda seed: points("sobol", 2, 128, seed)).mean()
-        latin = discrepancies(lambda seed: points("latin_hypercube", 2, 128, seed)).mean()
-        independent = discrepancies(lambda seed: np.random.default_rng(seed).random((128, 2))).mean()
+        sobol = our_discrepancies("sobol", 2, 128).mean()
+        latin = our_discrepancies("latin_hypercube", 2, 128).mean()
+        independent = discrepancies(np.random.default_rng(seed).random((128, 2)) for seed in range(SEEDS)).mean()
         self.assertLess(sobol, latin / 4)
         self.assertLess(latin, independent / 2)
 

@@ -1,8 +1,9 @@
 // Writes the points of a design, for programs that are not ours to judge.
 //
-//   write_design_points sequence DIMENSIONS POINTS            Sobol's sequence, unscrambled
-//   write_design_points sobol DIMENSIONS POINTS SEED
-//   write_design_points latin_hypercube DIMENSIONS POINTS SEED
+//   write_design_points DESIGN DIMENSIONS POINTS SEEDS
+//
+// DESIGN  sequence (Sobol's, unscrambled), sobol or latin_hypercube
+// SEEDS   how many designs: those of seeds 0, 1, ..., one after the other
 //
 // A line a point, its coordinates separated by spaces, in hexadecimal floating point.
 
@@ -44,14 +45,17 @@ std::unique_ptr<Design> design_called(const std::string& name, std::size_t dimen
 }  // namespace steerstat
 
 int main(int argc, char** argv) {
-  if (argc < 4) return 2;
+  if (argc != 5) return 2;
   const std::size_t dimensions = std::stoul(argv[2]);
   const std::uint64_t points = std::stoull(argv[3]);
-  const auto design = steerstat::design_called(argv[1], dimensions, points, argc > 4 ? std::stoull(argv[4]) : 0);
-  if (design == nullptr) return 2;
-  for (std::uint64_t point = 0; point < points; ++point) {
-    for (std::size_t i = 0; i < dimensions; ++i) {
-      std::printf("%a%c", design->coordinate(point, i), i + 1 < dimensions ? ' ' : '\n');
+  const std::uint64_t seeds = std::stoull(argv[4]);
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    const auto design = steerstat::design_called(argv[1], dimensions, points, seed);
+    if (design == nullptr) return 2;
+    for (std::uint64_t point = 0; point < points; ++point) {
+      for (std::size_t i = 0; i < dimensions; ++i) {
+        std::printf("%a%c", design->coordinate(point, i), i + 1 < dimensions ? ' ' : '\n');
+      }
     }
   }
 }
