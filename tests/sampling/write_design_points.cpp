@@ -34,7 +34,7 @@ class Sequence : public Design {
 std::unique_ptr<Design> design_called(const std::string& name, std::size_t dimensions, std::uint64_t points,
                                       std::uint64_t seed) {
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < dimensions; ++i) names.push_back("x" + std::to_string(i));
+  for (std::size_t i = 0; i < dimensions; ++i) names.push_back(std::string("x").append(std::to_string(i)));
   if (name == "sequence") return std::make_unique<Sequence>(dimensions);
   if (name == "sobol") return std::make_unique<Sobol>(seed, names);
   if (name == "latin_hypercube") return std::make_unique<LatinHypercube>(points, seed, names);
