@@ -1,33 +1,95 @@
+#include <fmt/format.h>
+
 #include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "commands.hpp"
+#include "core/errors.hpp"
 #include "output.hpp"
+#include "report/readable.hpp"
+#include "report/sensitivity.hpp"
 #include "report/summary.hpp"
 #include "store/result_file.hpp"
+#include "study/nearest.hpp"
+#include "study/spec_json.hpp"
 
 namespace steerstat {
 namespace {
 
 constexpr const char* epilogue = R"(Examples:
   steerstat show result.h5
-  steerstat show result.h5 --json | jq .success_rate)";
+  steerstat show result.h5 --json | jq .success_rate
+  steerstat show result.h5 --sensitivity --metric success --metric peak_force
+
+--sensitivity shows, instead of the summary, the share of each output's variance that each input which varies explains
+alone, with its interval; of a study of sobol_indices also the indices of its design. With correlated inputs an index
+counts what the input shares with others as its own.)";
+
+struct Request {
+  std::string file;
+  bool json{false};
+  bool sensitivity{false};
+  std::vector<std::string> metrics;
+};
+
+std::vector<Metric> chosen_outputs(const std::vector<std::string>& names) {
+  std::vector<Metric> outputs;
+  for (const std::string& name : names) {
+    const std::optional<Metric> output = find_output(name);
+    if (!output) {
+      const auto known = output_names();
+      const auto meant = nearest(name, known);
+      throw BadUsage(fmt::format("--metric: there is no metric {} ({}){}", printable(name), fmt::join(known, ", "),
+                                 meant ? fmt::format("; did you mean {}?", *meant) : ""));
+    }
+    outputs.push_back(*output);
+  }
+  return outputs;
+}
+
+void show_sensitivity(const Request& request, const StoredStudy& stored, std::span<const Metric> outputs) {
+  const Plan plan(stored.study);
+  SensitivityReport report;
+  report.id = study_id(stored.study);
+  report.name = stored.study.name;
+  report.complete = stored.result.complete;
+  report.given_data = given_data_sensitivity(stored.study, stored.result, stored.parameters, outputs);
+  report.sobol = sobol_sensitivity(stored.study, plan, stored.result.trials);
+  print(request.json ? sensitivity_json(report) : sensitivity_text(report, wants_colour(StandardStream::output)));
+}
+
+void show(const Request& request) {
+  if (!request.metrics.empty() && !request.sensitivity) {
+    throw BadUsage("--metric chooses what --sensitivity is of; add --sensitivity");
+  }
+  const auto outputs =
+      chosen_outputs(request.metrics.empty() ? std::vector<std::string>{"success", "settling_time"} : request.metrics);
+  const StoredStudy stored = read_result(request.file);
+  if (request.sensitivity) return show_sensitivity(request, stored, outputs);
+  const Summary summary = summarise(stored.study, stored.result);
+  print(request.json ? summary_json(summary) : summary_text(summary, wants_colour(StandardStream::output)));
+}
 
 }  // namespace
 
 void add_show(CLI::App& program, ExitCode& exit_code) {
-  struct Request {
-    std::string file;
-    bool json{false};
-  };
   CLI::App* command = program.add_subcommand("show", "Print the summary of a result file, recomputed from its trials");
   const auto request = std::make_shared<Request>();
   command->add_option("RESULT", request->file, "The result file (.h5)")->required()->option_text(" ");
   command->add_flag("--json", request->json, "Print JSON instead of a table");
+  command->add_flag("--sensitivity", request->sensitivity, "Which input drives success and settling time");
+  command
+      ->add_option("--metric", request->metrics,
+                   "What --sensitivity is of: success, end_time or a metric of the summary; repeatable")
+      ->type_name("NAME")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->footer(epilogue);
   command->callback([request, &exit_code] {
-    const StoredStudy stored = read_result(request->file);
-    const Summary summary = summarise(stored.study, stored.result);
-    print(request->json ? summary_json(summary) : summary_text(summary, wants_colour(StandardStream::output)));
+    show(*request);
     exit_code = ExitCode::done;
   });
 }

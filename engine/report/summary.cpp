@@ -80,7 +80,9 @@ std::optional<AuditStatistics> summarise_audit(const Audit& audit, const TrialTa
 Summary summarise(const Study& study, const StudyResult& result) {
   const Plan plan(study);
   Tally all;
-  for (const TrialOutcome& outcome : result.trials.outcomes) all.add(outcome);
+  for (std::size_t row = 0; row < result.trials.index.size(); ++row) {
+    if (plan.is_independent(result.trials.index[row])) all.add(result.trials.outcomes[row]);
+  }
   Summary summary;
   summary.id = study_id(study);
   summary.name = study.name;
@@ -89,9 +91,11 @@ Summary summarise(const Study& study, const StudyResult& result) {
   summary.seed = study.sampling.seed;
   summary.complete = result.complete;
   summary.requested = plan.trials();
+  summary.completed = result.trials.index.size();
   summary.intervals = study.intervals;
   summary.all = all.statistics(study.intervals);
   summary.cells = summarise_cells(plan, study.intervals, result.trials);
+  summary.sensitivity = sobol_sensitivity(study, plan, result.trials);
   summary.audit = summarise_audit(result.audit, result.trials);
   summary.wall_s = result.wall_s;
   summary.threads = result.threads;

@@ -9,6 +9,7 @@
 
 #include "core/instruction_set.hpp"
 #include "core/status.hpp"
+#include "report/sensitivity.hpp"
 #include "statistics/proportion.hpp"
 #include "statistics/sample.hpp"
 #include "study/run.hpp"
@@ -17,9 +18,10 @@
 
 namespace steerstat {
 
-/// What a set of trials says; statistics without data are empty.
+/// What a set of trials says; statistics without data are empty. Of a study of Sobol' indices only the trials A and B
+/// of each row count, which are independent: the others repeat their values, and intervals would be too narrow.
 struct TrialStatistics {
-  std::uint64_t completed{0};
+  std::uint64_t completed{0};  ///< trials that the statistics are of
   std::optional<ProportionInterval> success_rate;
   std::array<std::uint64_t, status_names.size()> outcomes{};            ///< by Status
   std::array<std::optional<SampleStatistics>, metric_count> metrics{};  ///< in the order of metrics()
@@ -48,14 +50,16 @@ struct Summary {
   std::uint64_t seed{0};
   bool complete{false};
   std::uint64_t requested{0};
+  std::uint64_t completed{0};  ///< finished trials, all of them
   IntervalChoice intervals;
   TrialStatistics all;
   struct Cell {
     std::vector<Plan::SweptValue> sweep;
     TrialStatistics statistics;
   };
-  std::vector<Cell> cells;               ///< one a cell where there are sweeps
-  std::optional<AuditStatistics> audit;  ///< nothing where no trial was audited
+  std::vector<Cell> cells;                      ///< one a cell where there are sweeps
+  std::optional<SobolSensitivity> sensitivity;  ///< of sobol_indices sampling
+  std::optional<AuditStatistics> audit;         ///< nothing where no trial was audited
   double wall_s{0.0};
   unsigned threads{0};
   std::optional<InstructionSet> simd;  ///< what lockstep ran on

@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "report/sensitivity_json.hpp"
 #include "report/summary.hpp"
 #include "trial/metric.hpp"
 
@@ -35,9 +36,9 @@ Json sample_json(const std::optional<SampleStatistics>& sample) {
           {"count", sample ? sample->count : 0}};
 }
 
-void append_statistics(Json& json, std::uint64_t requested, const IntervalChoice& intervals,
+void append_statistics(Json& json, std::uint64_t requested, std::uint64_t completed, const IntervalChoice& intervals,
                        const TrialStatistics& statistics) {
-  json["trials"] = {{"requested", requested}, {"completed", statistics.completed}};
+  json["trials"] = {{"requested", requested}, {"completed", completed}};
   json["success_rate"] = success_rate_json(statistics.success_rate, intervals);
   json["outcomes"] = outcomes_json(statistics);
   for (std::size_t i = 0; i < metric_count; ++i) {
@@ -51,7 +52,8 @@ Json cells_json(const Summary& summary) {
     Json json;
     json["sweep"] = Json::object();
     for (const Plan::SweptValue& swept : cell.sweep) json["sweep"][swept.name] = swept.value;
-    append_statistics(json, summary.requested / summary.cells.size(), summary.intervals, cell.statistics);
+    append_statistics(json, summary.requested / summary.cells.size(), cell.statistics.completed, summary.intervals,
+                      cell.statistics);
     cells.push_back(std::move(json));
   }
   return cells;
@@ -72,8 +74,8 @@ Json audit_json(const std::optional<AuditStatistics>& audit) {
 Json performance_json(const Summary& summary) {
   Json json = {{"wall_s", summary.wall_s}, {"trials_per_s", nullptr}, {"threads", summary.threads}};
   json["simd"] = summary.simd ? Json(name_of(*summary.simd)) : Json(nullptr);
-  if (summary.all.completed > 0 && summary.wall_s > 0.0) {
-    json["trials_per_s"] = static_cast<double>(summary.all.completed) / summary.wall_s;
+  if (summary.completed > 0 && summary.wall_s > 0.0) {
+    json["trials_per_s"] = static_cast<double>(summary.completed) / summary.wall_s;
   }
   return json;
 }
@@ -88,8 +90,9 @@ std::string summary_json(const Summary& summary) {
                    {"engine_version", summary.engine_version},
                    {"seed", summary.seed}};
   json["complete"] = summary.complete;
-  append_statistics(json, summary.requested, summary.intervals, summary.all);
+  append_statistics(json, summary.requested, summary.completed, summary.intervals, summary.all);
   json["cells"] = cells_json(summary);
+  json["sensitivity"] = sobol_json(summary.sensitivity);
   json["gates"] = Json::array();
   json["audit"] = audit_json(summary.audit);
   json["performance"] = performance_json(summary);

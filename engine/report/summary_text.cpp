@@ -44,7 +44,7 @@ std::string heading(const Summary& summary, bool colour) {
       '\n';
   if (!summary.complete) {
     text += styled(fmt::format("Incomplete: {} of {} finished; what follows is of those.",
-                               readable_count(summary.all.completed), plural(summary.requested, "trial")),
+                               readable_count(summary.completed), plural(summary.requested, "trial")),
                    fg(fmt::terminal_color::yellow) | bold, colour) +
             '\n';
   }
@@ -245,9 +245,9 @@ std::string audit_text(const AuditStatistics& audit, bool colour) {
 }
 
 std::string performance_text(const Summary& summary, bool colour) {
-  if (summary.all.completed == 0 || !(summary.wall_s > 0.0)) return {};
-  const double rate = static_cast<double>(summary.all.completed) / summary.wall_s;
-  return styled(fmt::format("{} in {} on {}{}: {} trials/s", plural(summary.all.completed, "trial"),
+  if (summary.completed == 0 || !(summary.wall_s > 0.0)) return {};
+  const double rate = static_cast<double>(summary.completed) / summary.wall_s;
+  return styled(fmt::format("{} in {} on {}{}: {} trials/s", plural(summary.completed, "trial"),
                             readable_duration(summary.wall_s), plural(summary.threads, "thread"),
                             summary.simd ? fmt::format(" with {}", name_of(*summary.simd)) : "", readable_rate(rate)),
                 faint, colour) +
@@ -262,10 +262,16 @@ std::string summary_text(const Summary& summary, bool colour) {
     text += single_text(summary.all, colour);
   } else {
     text += success_text(summary.all, summary.intervals.method, colour);
+    if (summary.sensitivity) {
+      text += styled(fmt::format("  Of the {} that are independent, A and B of each row.\n",
+                                 plural(summary.all.completed, "trial")),
+                     faint, colour);
+    }
     if (summary.all.completed > 0) text += '\n' + outcome_text(summary.all, colour);
     if (summary.all.of("settling_time")) text += '\n' + sample_text(summary.all, colour);
     if (!summary.cells.empty()) text += '\n' + cells_text(summary.cells, summary.intervals.level, colour);
   }
+  if (summary.sensitivity && summary.completed > 0) text += '\n' + sobol_text(*summary.sensitivity, colour);
   if (summary.audit) text += '\n' + audit_text(*summary.audit, colour);
   return text + '\n' + performance_text(summary, colour);
 }

@@ -12,6 +12,7 @@
 #include "sampling/correlated_design.hpp"
 #include "sampling/latin_hypercube.hpp"
 #include "sampling/monte_carlo.hpp"
+#include "sampling/pick_freeze_design.hpp"
 #include "sampling/sobol.hpp"
 #include "study/inputs.hpp"
 
@@ -64,7 +65,8 @@ void require_known_inputs(const Study& study) {
   }
 }
 
-static_assert(input_count <= SobolSequence::most_dimensions, "every input can be drawn by the method sobol");
+static_assert(2 * input_count <= SobolSequence::most_dimensions,
+              "every input can be drawn by the method sobol, and twice for Sobol' indices");
 
 std::shared_ptr<const Design> independent_design(const Sampling& sampling, std::span<const std::string> names) {
   if (sampling.method == SamplingMethod::latin_hypercube) {
@@ -74,8 +76,17 @@ std::shared_ptr<const Design> independent_design(const Sampling& sampling, std::
   return std::make_shared<MonteCarlo>(sampling.seed, names);
 }
 
+std::shared_ptr<const Design> pick_freeze_design(const Sampling& sampling, const std::vector<std::string>& names) {
+  std::vector<std::string> base_names = names;
+  for (const std::string& name : names) base_names.push_back(name + "'");  // B's draws
+  Sampling base = sampling;
+  base.method = sampling.base == SobolIndicesBase::sobol ? SamplingMethod::sobol : SamplingMethod::monte_carlo;
+  return std::make_shared<PickFreezeDesign>(independent_design(base, base_names), names.size());
+}
+
 // @param names  of the inputs that are drawn
 std::shared_ptr<const Design> design_of(const Sampling& sampling, const std::vector<std::string>& names) {
+  if (sampling.method == SamplingMethod::sobol_indices) return pick_freeze_design(sampling, names);
   auto independent = independent_design(sampling, names);
   if (sampling.correlations.empty()) return independent;
   std::vector<PairCorrelation> pairs;
@@ -125,6 +136,13 @@ Plan::Plan(const Study& study)
     names_.push_back(name);
     fields_.push_back(definition.field);
     sources_.push_back(*std::move(source));
+  }
+  if (study.sampling.method == SamplingMethod::sobol_indices) {
+    if (factors > 0 || drawn_names.empty() || !study.sampling.correlations.empty()) {
+      throw std::invalid_argument("Plan: Sobol' indices are of independent distributions alone");
+    }
+    variants_ = PickFreezeDesign::variants(drawn_names.size());
+    draws_ *= variants_;
   }
   design_ = design_of(study.sampling, drawn_names);
   coordinates_ = drawn_names.size();

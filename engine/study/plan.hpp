@@ -23,11 +23,20 @@ namespace steerstat {
 class Plan {
  public:
   /// @throws std::invalid_argument for a study that decode_study() would not return: an input that does not exist or
-  ///         has two sources of values, a table of explicit trials with the wrong number of values, or correlations of
-  ///         inputs that are not drawn or that are not positive definite
+  ///         has two sources of values, a table of explicit trials with the wrong number of values, correlations of
+  ///         inputs that are not drawn or that are not positive definite, or Sobol' indices of no distribution, beside
+  ///         sweeps or with correlations
   explicit Plan(const Study& study);
 
   [[nodiscard]] std::uint64_t trials() const { return draws_ * cells(); }
+
+  /// Draws that stand together: those of a row of a pick-freeze design (PickFreezeDesign), else 1.
+  [[nodiscard]] std::uint64_t variants() const { return variants_; }
+
+  /// Whether trial `index` is one of those that no other trial shares drawn values with, but for its cell: all, or the
+  /// first two of each row of a pick-freeze design, A and B.
+  [[nodiscard]] bool is_independent(std::uint64_t index) const { return index / cells() % variants_ < 2; }
+
   [[nodiscard]] std::uint64_t cells() const { return cells_.cells(); }
   [[nodiscard]] std::uint64_t cell_of(std::uint64_t index) const { return index % cells(); }
 
@@ -76,6 +85,7 @@ class Plan {
   std::vector<Source> sources_;     // (varying)
   TrialParameters base_;            // with every value that does not vary
   std::uint64_t draws_;
+  std::uint64_t variants_{1};
   Factorial cells_;
   std::shared_ptr<const Design> design_;
   std::size_t coordinates_;     // of the design

@@ -23,6 +23,7 @@ std::vector<std::string_view> places_in_spec() {
                                        "sampling.seed",
                                        "sampling.file",
                                        "sampling.correlation",
+                                       "sampling.base",
                                        "controller.realignment",
                                        "retain.trajectories",
                                        "intervals.method",

@@ -74,6 +74,10 @@ class Rules {
                            fmt::format("a distribution beside explicit trials (they draw nothing); list {} in every "
                                        "trial, or give a number",
                                        input.name)});
+      } else if (std::holds_alternative<Sweep>(input.value) && method == SamplingMethod::sobol_indices) {
+        errors_.push_back({pointer_to(input.name),
+                           "a sweep beside sobol_indices (every input that varies is drawn); use a distribution, "
+                           "such as a discrete one, or a study for each value"});
       } else if (std::holds_alternative<Sweep>(input.value) && is_listed) {
         errors_.push_back({pointer_to(input.name), fmt::format("{} is swept and listed in the explicit trials too (one "
                                                                "source of values); remove one",
@@ -85,9 +89,15 @@ class Rules {
                          "a grid without sweeps (a grid runs the sweeps' combinations); add a "
                          "{\"sweep\": [...]}, or use monte_carlo"});
     }
+    if (method == SamplingMethod::sobol_indices && drawn() == 0 && mistaken_.empty()) {
+      errors_.push_back({"/sampling/method",
+                         "sobol_indices without a distribution (indices are those of the inputs that are drawn); add "
+                         "one, such as {\"uniform\": [0.8, 1.2]}, or use monte_carlo"});
+    }
   }
 
   void check_size() {
+    check_rows();
     double cells = 1.0;
     const Input* longest = nullptr;
     std::size_t most = 0;
@@ -112,6 +122,24 @@ class Rules {
   }
 
  private:
+  // A row of sobol_indices is as many trials as there are distributions, and two.
+  void check_rows() {
+    if (study_.sampling.method != SamplingMethod::sobol_indices) return;
+    const auto rows = static_cast<double>(study_.sampling.trials);
+    const auto variants = static_cast<double>(drawn() + 2);
+    if (rows * variants <= static_cast<double>(most_trials)) return;
+    errors_.push_back({"/sampling/trials",
+                       fmt::format("{} rows of {} trials (two and one for each distribution) make {} (at most {} in "
+                                   "all); lower the trials",
+                                   rows, variants, rows * variants, most_trials)});
+  }
+
+  [[nodiscard]] std::size_t drawn() const {
+    return static_cast<std::size_t>(std::count_if(study_.inputs.begin(), study_.inputs.end(), [](const Input& input) {
+      return std::holds_alternative<Distribution>(input.value);
+    }));
+  }
+
   [[nodiscard]] bool is_mistaken(std::string_view name) const {
     return std::find(mistaken_.begin(), mistaken_.end(), name) != mistaken_.end();
   }

@@ -14,6 +14,8 @@
 namespace steerstat {
 namespace {
 
+constexpr std::array<std::string_view, 2> base_names{"monte_carlo", "sobol"};  // of sobol_indices
+
 std::optional<SamplingMethod> decode_method(const Reader& reader) {
   const auto member = reader.find("method");
   if (!member) return SamplingMethod::monte_carlo;
@@ -120,15 +122,26 @@ Sampling decode_sampling(const Reader& reader, const std::filesystem::path& dire
                          std::span<const std::string> mistaken) {
   Sampling sampling;
   if (!reader.require_object("an object {\"method\", \"trials\", \"seed\"}")) return sampling;
-  static constexpr std::array<std::string_view, 5> known{"method", "trials", "seed", "file", "correlation"};
+  static constexpr std::array<std::string_view, 6> known{"method", "trials", "seed", "file", "correlation", "base"};
   reader.refuse_unknown_keys(known);
   if (const auto seed = reader.find("seed")) {
     sampling.seed = seed->integer(0, std::numeric_limits<std::uint64_t>::max()).value_or(sampling.seed);
   }
   const auto method = decode_method(reader);
   sampling.method = method.value_or(sampling.method);
+  if (const auto base = reader.find("base")) {
+    if (method && method != SamplingMethod::sobol_indices) {
+      base->fail("only the method sobol_indices has a base; remove it, or set the method");
+    } else if (const auto position = base->one_of(base_names)) {
+      sampling.base = static_cast<SobolIndicesBase>(*position);
+    }
+  }
   if (const auto correlation = reader.find("correlation")) {
-    if (draws(sampling.method)) {
+    if (sampling.method == SamplingMethod::sobol_indices) {
+      correlation->fail(
+          "the method sobol_indices takes variance apart by inputs (they must be independent); remove it, or use "
+          "monte_carlo and show --sensitivity, whose first-order indices need no independence");
+    } else if (draws(sampling.method)) {
       sampling.correlations = decode_correlations(*correlation, inputs, mistaken);
     } else {
       correlation->fail(
@@ -160,6 +173,9 @@ nlohmann::json encode_sampling(const Sampling& sampling) {
   object["method"] = sampling_method_names[static_cast<std::size_t>(sampling.method)];
   object["seed"] = sampling.seed;
   if (draws(sampling.method)) object["trials"] = sampling.trials;
+  if (sampling.method == SamplingMethod::sobol_indices) {
+    object["base"] = base_names[static_cast<std::size_t>(sampling.base)];
+  }
   if (!sampling.correlations.empty()) object["correlation"] = encode_correlations(sampling.correlations);
   if (sampling.method != SamplingMethod::explicit_trials) return object;
   auto rows = nlohmann::json::array();

@@ -33,16 +33,19 @@ struct Input {
   friend bool operator==(const Input&, const Input&) = default;
 };
 
-enum class SamplingMethod : std::uint8_t { monte_carlo, latin_hypercube, sobol, grid, explicit_trials };
+enum class SamplingMethod : std::uint8_t { monte_carlo, latin_hypercube, sobol, grid, explicit_trials, sobol_indices };
 
 /// As a spec spells them.
-inline constexpr std::array<std::string_view, 5> sampling_method_names{"monte_carlo", "latin_hypercube", "sobol",
-                                                                       "grid", "explicit"};
+inline constexpr std::array<std::string_view, 6> sampling_method_names{
+    "monte_carlo", "latin_hypercube", "sobol", "grid", "explicit", "sobol_indices"};
 
 /// Whether the method draws values from distributions.
 constexpr bool draws(SamplingMethod method) {
   return method != SamplingMethod::grid && method != SamplingMethod::explicit_trials;
 }
+
+/// What the rows of the method sobol_indices are drawn by.
+enum class SobolIndicesBase : std::uint8_t { monte_carlo, sobol };
 
 /// How two inputs with distributions go together: the correlation of the normal variables behind them.
 struct Correlation {
@@ -55,9 +58,10 @@ struct Correlation {
 /// How the inputs' values are drawn.
 struct Sampling {
   SamplingMethod method{SamplingMethod::monte_carlo};
-  std::uint64_t trials{1};  ///< draws a cell; 1 for a grid
+  std::uint64_t trials{1};  ///< draws a cell; 1 for a grid; rows for sobol_indices
   std::uint64_t seed{1};
-  std::vector<Correlation> correlations;    ///< in the order of input_names(); positive definite
+  std::vector<Correlation> correlations;  ///< in the order of input_names(); positive definite
+  SobolIndicesBase base{SobolIndicesBase::monte_carlo};
   std::vector<std::string> explicit_names;  ///< explicit: the inputs that the rows set
   std::vector<double> explicit_values;      ///< explicit: (trials x explicit_names), row by row
 

@@ -6,7 +6,7 @@
 //
 // Exits 1 after naming every document with the wrong verdict, and where there was nothing to check.
 import { readFileSync, readdirSync } from "node:fs";
-import { basename, dirname, join } from "node:path";
+import { dirname, join } from "node:path";
 import Ajv2020 from "ajv/dist/2020.js";
 
 const read = (path) => JSON.parse(readFileSync(path, "utf8"));
@@ -14,8 +14,9 @@ const read = (path) => JSON.parse(readFileSync(path, "utf8"));
 function compile(schemaPath) {
   // Strict: a misspelt keyword in the schema is an error. Types are stated beside `properties`, not in each branch.
   const ajv = new Ajv2020({ allErrors: true, strict: true, strictTypes: false, strictRequired: false });
-  const study = join(dirname(schemaPath), "study.schema.json"); // whose definitions others refer to
-  if (basename(schemaPath) !== basename(study)) ajv.addSchema(read(study));
+  for (const other of jsonFilesUnder(dirname(schemaPath))) {
+    if (other !== schemaPath) ajv.addSchema(read(other)); // what it may refer to
+  }
   const validate = ajv.compile(read(schemaPath));
   return (document) => ({ valid: validate(document), why: ajv.errorsText(validate.errors, { separator: "\n    " }) });
 }

@@ -64,6 +64,8 @@ TEST(Usage, EveryMistakeExitsWithTwoAndSaysWhatIsWrong) {
       {{"run", spec, "--summary", spec}, "is the spec itself"},
       {{"run", spec, "-o", scratch / "x", "--summary", scratch / "x"}, "give each its own file"},
       {{"show"}, "RESULT is required"},
+      {{"show", scratch / "x.h5", "--metric", "success"}, "add --sensitivity"},
+      {{"show", scratch / "x.h5", "--sensitivity", "--metric", "sucess"}, "did you mean success?"},
       {{"replay", scratch / "x.h5"}, "--trial is required"},
       {{"replay", scratch / "x.h5", "--trial", "0", "-o", scratch / "x.txt"}, ".csv or .json"},
       {{"export", scratch / "x.h5"}, "--output is required"},

@@ -240,6 +240,36 @@ TEST(Plan, EveryInputReachesItsOwnField) {
   }
 }
 
+TEST(Plan, SobolIndicesPutTheVariantsOfARowBesideOneAnother) {
+  const std::string spec = R"({"plant": {"m1": {"uniform": [0.8, 1.2]}, "f2": {"uniform": [0, 0.05]}},
+      "sampling": {"method": "sobol_indices", "seed": 42, "trials": )";
+  const Plan plan = plan_of(spec + "10}}");
+  ASSERT_EQ(plan.variants(), 4U);
+  ASSERT_EQ(plan.trials(), 40U);
+  const Plan more = plan_of(spec + "1000}}");
+  for (std::uint64_t row = 0; row < 10; ++row) {
+    const double m1 = Uniform{0.8, 1.2}.quantile(UniformStream(42, "plant.m1").at(row));
+    const double f2 = Uniform{0.0, 0.05}.quantile(UniformStream(42, "plant.f2").at(row));
+    const double other_m1 = Uniform{0.8, 1.2}.quantile(UniformStream(42, "plant.m1'").at(row));
+    const double other_f2 = Uniform{0.0, 0.05}.quantile(UniformStream(42, "plant.f2'").at(row));
+    EXPECT_THAT(values_of(plan, 4 * row), ElementsAre(m1, f2));
+    EXPECT_THAT(values_of(plan, 4 * row + 1), ElementsAre(other_m1, other_f2));
+    EXPECT_THAT(values_of(plan, 4 * row + 2), ElementsAre(other_m1, f2));
+    EXPECT_THAT(values_of(plan, 4 * row + 3), ElementsAre(m1, other_f2));
+    for (std::uint64_t variant = 0; variant < 4; ++variant) {
+      EXPECT_EQ(plan.is_independent(4 * row + variant), variant < 2);
+      EXPECT_EQ(values_of(plan, 4 * row + variant), values_of(more, 4 * row + variant));
+    }
+  }
+}
+
+TEST(Plan, EveryTrialOfAnotherMethodIsIndependent) {
+  const Plan plan = plan_of(R"({"plant": {"m1": {"uniform": [0.8, 1.2]}, "m2": {"sweep": [1, 2, 3]}},
+      "sampling": {"trials": 4}})");
+  EXPECT_EQ(plan.variants(), 1U);
+  for (std::uint64_t index = 0; index < plan.trials(); ++index) EXPECT_TRUE(plan.is_independent(index));
+}
+
 TEST(Plan, RefusesAStudyThatNoSpecGives) {
   Study unknown = study_of("{}");
   unknown.inputs.push_back({"plant.m3", 1.0});
@@ -248,6 +278,14 @@ TEST(Plan, RefusesAStudyThatNoSpecGives) {
   Study ragged = study_of(R"({"sampling": {"method": "explicit", "trials": [{"plant.m1": 1}]}})");
   ragged.sampling.explicit_values.push_back(2.0);
   EXPECT_THROW(Plan{ragged}, std::invalid_argument);
+
+  Study swept = study_of(R"({"plant": {"m1": {"uniform": [0.8, 1.2]}}, "sampling": {"method": "sobol_indices"}})");
+  swept.inputs.back().value = Sweep{{1.0, 2.0}};
+  EXPECT_THROW(Plan{swept}, std::invalid_argument);
+
+  Study nothing = study_of("{}");
+  nothing.sampling.method = SamplingMethod::sobol_indices;
+  EXPECT_THROW(Plan{nothing}, std::invalid_argument);
 
   Study twice = study_of(R"({"sampling": {"method": "explicit", "trials": [{"plant.m1": 1}]}})");
   twice.inputs.front().value = Sweep{{1.0, 2.0}};
