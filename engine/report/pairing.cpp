@@ -134,7 +134,8 @@ class Reasons {
   std::vector<std::string> reasons_;
 };
 
-std::vector<std::pair<std::size_t, std::size_t>> common_rows(const TrialTable& a, const TrialTable& b) {
+std::vector<std::pair<std::size_t, std::size_t>> common_rows(const Plan& plan, const TrialTable& a,
+                                                             const TrialTable& b) {
   std::vector<std::pair<std::size_t, std::size_t>> rows;
   std::size_t i = 0;
   std::size_t j = 0;
@@ -144,7 +145,10 @@ std::vector<std::pair<std::size_t, std::size_t>> common_rows(const TrialTable& a
     } else if (b.index[j] < a.index[i]) {
       ++j;
     } else {
-      rows.emplace_back(i++, j++);
+      // Of a pick-freeze design's rows only A and B are independent of each other.
+      if (plan.is_independent(a.index[i])) rows.emplace_back(i, j);
+      ++i;
+      ++j;
     }
   }
   return rows;
@@ -192,7 +196,7 @@ StudiesDoNotPair::StudiesDoNotPair(std::vector<std::string> reasons)
 Pairing pair_trials(const ComparedStudy& a, const ComparedStudy& b, const std::vector<SpecDifference>& differences) {
   std::vector<std::string> reasons = Reasons(a, b, differences).find();
   if (!reasons.empty()) throw StudiesDoNotPair(std::move(reasons));
-  Pairing pairing{common_rows(a.result.trials, b.result.trials), drawn_names(a.study)};
+  Pairing pairing{common_rows(Plan(a.study), a.result.trials, b.result.trials), drawn_names(a.study)};
   if (pairing.rows.empty()) {
     throw StudiesDoNotPair({"no trial has finished in both (a pair needs one of each); let both run further"});
   }

@@ -41,7 +41,8 @@ struct Pairing {
 ///
 /// Paired are studies with the same seed, sampling method, drawn inputs and their distributions, listed trials, and
 /// sweeps (two studies of a single cell pair whatever they sweep); everything else may differ. The stored values of the
-/// drawn inputs are then compared, bit by bit.
+/// drawn inputs are then compared, bit by bit. Of a study of Sobol' indices only A and B of each row are paired, which
+/// are independent.
 ///
 /// @param differences  spec_differences() of the two
 /// @throws StudiesDoNotPair with every reason there is

@@ -73,6 +73,12 @@ TEST(PairTrials, PairsTheTrialsThatBothHave) {
               ElementsAre(std::pair(3, 0), std::pair(4, 13), std::pair(5, 14), std::pair(6, 15), std::pair(7, 16)));
 }
 
+TEST(PairTrials, PairsTheIndependentTrialsOfAStudyOfSobolIndices) {
+  const Finished a =
+      finished(R"({"plant": {"m1": {"uniform": [0.8, 1.2]}}, "sampling": {"method": "sobol_indices", "trials": 2}})");
+  EXPECT_THAT(pair_up(a, a).rows, ElementsAre(std::pair(0, 0), std::pair(1, 1), std::pair(3, 3), std::pair(4, 4)));
+}
+
 TEST(PairTrials, PairsSweptStudiesCellByCellWhereverTheSweepsAreTheSame) {
   const std::string sweep = R"(, "controller": {"contraction": {"eta1": {"sweep": [0.3, 0.5]}}})";
   const std::string other = R"(, "controller": {"contraction": {"eta1": {"sweep": [0.3, 0.6]}}})";
