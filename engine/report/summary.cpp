@@ -96,6 +96,7 @@ Summary summarise(const Study& study, const StudyResult& result) {
   summary.all = all.statistics(study.intervals);
   summary.cells = summarise_cells(plan, study.intervals, result.trials);
   summary.sensitivity = sobol_sensitivity(study, plan, result.trials);
+  if (const auto report = watched(study, result.trials)) summary.stop = {*study.stop, *report};
   summary.audit = summarise_audit(result.audit, result.trials);
   summary.wall_s = result.wall_s;
   summary.threads = result.threads;

@@ -57,7 +57,12 @@ struct Summary {
     std::vector<Plan::SweptValue> sweep;
     TrialStatistics statistics;
   };
-  std::vector<Cell> cells;                      ///< one a cell where there are sweeps
+  std::vector<Cell> cells;  ///< one a cell where there are sweeps
+  struct Stop {
+    StopRule rule;
+    StopReport report;
+  };
+  std::optional<Stop> stop;                     ///< where the study has a rule
   std::optional<SobolSensitivity> sensitivity;  ///< of sobol_indices sampling
   std::optional<AuditStatistics> audit;         ///< nothing where no trial was audited
   double wall_s{0.0};

@@ -59,6 +59,32 @@ Json cells_json(const Summary& summary) {
   return cells;
 }
 
+Json goal_json(const PrecisionGoal& goal, const GoalProgress& progress, bool has_cells) {
+  Json json = {{"metric", goal.metric}, {"quantile", number_or_null(goal.quantile)}};
+  json[goal.relative ? "relative_half_width" : "half_width"] = goal.half_width;
+  json["reached"] = progress.reached;
+  json["cell"] = has_cells ? Json(progress.cell) : Json(nullptr);
+  json["estimate"] = number_or_null(progress.estimate);
+  json["ci_low"] = number_or_null(progress.low);
+  json["ci_high"] = number_or_null(progress.high);
+  return json;
+}
+
+Json stop_json(const Summary& summary) {
+  if (!summary.stop) return nullptr;
+  const auto& [rule, report] = *summary.stop;
+  Json json;
+  json["reason"] = report.reason ? Json(stop_reason_names[static_cast<std::size_t>(*report.reason)]) : Json(nullptr);
+  json["trials"] = report.trials;
+  json["looks"] = report.looks;
+  json["level"] = rule.level;
+  json["until"] = Json::array();
+  for (std::size_t i = 0; i < rule.until.size(); ++i) {
+    json["until"].push_back(goal_json(rule.until[i], report.goals[i], !summary.cells.empty()));
+  }
+  return json;
+}
+
 Json audit_json(const std::optional<AuditStatistics>& audit) {
   if (!audit) return nullptr;
   Json json = {{"trials", audit->trials}, {"agree", audit->agree}, {"disagree", audit->disagree}};
@@ -91,6 +117,7 @@ std::string summary_json(const Summary& summary) {
                    {"seed", summary.seed}};
   json["complete"] = summary.complete;
   append_statistics(json, summary.requested, summary.completed, summary.intervals, summary.all);
+  json["stop"] = stop_json(summary);
   json["cells"] = cells_json(summary);
   json["sensitivity"] = sobol_json(summary.sensitivity);
   json["gates"] = Json::array();

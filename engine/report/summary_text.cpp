@@ -38,6 +38,7 @@ std::string heading(const Summary& summary, bool colour) {
   if (const std::size_t cells = summary.cells.size(); cells > 0) {
     trials += fmt::format(" ({} in each of {})", readable_count(summary.requested / cells), plural(cells, "cell"));
   }
+  if (summary.stop) trials = "at most " + trials;
   text +=
       styled(fmt::format("{} · seed {} · id {} · engine {}", trials, summary.seed, summary.id, summary.engine_version),
              faint, colour) +
@@ -47,6 +48,31 @@ std::string heading(const Summary& summary, bool colour) {
                                readable_count(summary.completed), plural(summary.requested, "trial")),
                    fg(fmt::terminal_color::yellow) | bold, colour) +
             '\n';
+  }
+  return text;
+}
+
+/// "the 95 % quantile of settling_time", "success_rate".
+std::string name_of_goal(const PrecisionGoal& goal) {
+  if (!goal.quantile) return goal.metric;
+  return fmt::format("the {:.6g} % quantile of {}", 100.0 * *goal.quantile, goal.metric);
+}
+
+std::string stop_text(const Summary& summary, bool colour) {
+  const auto& [rule, report] = *summary.stop;
+  const bool reached = *report.reason == StopReason::precision_reached;
+  std::string text =
+      fmt::format("  {}  {} after {} of at most {}, at look {}\n", styled("Stopped", bold, colour),
+                  reached ? "with the precision asked for" : "short of the precision asked for",
+                  readable_count(report.trials), plural(summary.requested, "trial"), readable_count(report.looks));
+  for (std::size_t i = 0; i < rule.until.size(); ++i) {
+    const PrecisionGoal& goal = rule.until[i];
+    const GoalProgress& progress = report.goals[i];
+    const auto bound = [](std::optional<double> x) { return x ? fmt::format("{:.6g}", *x) : std::string(no_data); };
+    text += fmt::format("           {} within {:.6g}{}: {} to {} at {:.6g} %{}\n", name_of_goal(goal),
+                        goal.relative ? 100.0 * goal.half_width : goal.half_width, goal.relative ? " %" : "",
+                        bound(progress.low), bound(progress.high), 100.0 * rule.level,
+                        progress.reached ? "" : ", not reached");
   }
   return text;
 }
@@ -271,6 +297,7 @@ std::string summary_text(const Summary& summary, bool colour) {
     if (summary.all.of("settling_time")) text += '\n' + sample_text(summary.all, colour);
     if (!summary.cells.empty()) text += '\n' + cells_text(summary.cells, summary.intervals.level, colour);
   }
+  if (summary.stop && summary.stop->report.reason) text += '\n' + stop_text(summary, colour);
   if (summary.sensitivity && summary.completed > 0) text += '\n' + sobol_text(*summary.sensitivity, colour);
   if (summary.audit) text += '\n' + audit_text(*summary.audit, colour);
   return text + '\n' + performance_text(summary, colour);

@@ -8,6 +8,7 @@
 #include "study/intervals_json.hpp"
 #include "study/sampling_json.hpp"
 #include "study/spec_json.hpp"
+#include "study/stop_json.hpp"
 
 namespace steerstat {
 namespace {
@@ -90,9 +91,10 @@ std::string canonical_spec(const Study& study) {
   spec["retain"]["trajectories"] = {{"failed", study.retention.failed}, {"first", study.retention.first}};
   spec["audit"]["trials"] = study.audited_trials;
   // What a study did not say before these keys existed is left out, so that its identity stays.
-  if (Canonical intervals = encode_intervals(study.intervals, false); !intervals.is_null()) {
+  if (Canonical intervals = encode_intervals(study.intervals, study.stop.has_value()); !intervals.is_null()) {
     spec["intervals"] = std::move(intervals);
   }
+  if (study.stop) spec["stop"] = encode_stop(*study.stop);
   std::string text;
   write(spec, text);
   return text;

@@ -21,6 +21,9 @@ inline constexpr std::size_t most_correlations = 1'000;
 /// A discrete distribution has at most this many values.
 inline constexpr std::size_t most_discrete_values = 10'000;
 
+/// A study stops on at most this many goals of precision.
+inline constexpr std::size_t most_precision_goals = 32;
+
 /// At most this many trajectories are retained, of the failed trials and of the first ones each: a run holds them in
 /// memory, up to half a megabyte a piece.
 inline constexpr std::uint64_t most_trajectories = 1'000;

@@ -27,7 +27,11 @@ std::vector<std::string_view> places_in_spec() {
                                        "controller.realignment",
                                        "retain.trajectories",
                                        "intervals.method",
-                                       "intervals.level"};
+                                       "intervals.level",
+                                       "stop.until",
+                                       "stop.check_every",
+                                       "stop.min_trials",
+                                       "stop.max_trials"};
   for (const InputDefinition& definition : input_definitions()) places.push_back(definition.name);
   return places;
 }

@@ -84,6 +84,12 @@ class Rules {
                                                                input.name)});
       }
     }
+    if (study_.stop && !is_mistaken("stop") && method != SamplingMethod::monte_carlo) {
+      errors_.push_back({"/stop", fmt::format("stopping on precision with the method {} (its intervals hold for "
+                                              "independent draws, which monte_carlo alone makes); use monte_carlo, or "
+                                              "remove \"stop\"",
+                                              sampling_method_names[static_cast<std::size_t>(method)])});
+    }
     if (method == SamplingMethod::grid && !sweeps() && mistaken_.empty()) {
       errors_.push_back({"/sampling/method",
                          "a grid without sweeps (a grid runs the sweeps' combinations); add a "

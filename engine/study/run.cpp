@@ -19,6 +19,8 @@
 #include <thread>
 #include <utility>
 
+#include "study/finished_prefix.hpp"
+
 namespace steerstat {
 namespace {
 
@@ -48,7 +50,7 @@ class BlockQueue {
     return Block{begin, std::min(begin + block_, trials_)};
   }
 
-  /// Ends the run because something failed.
+  /// Ends the run: no further block is begun.
   void halt() { halted_.store(true, std::memory_order_relaxed); }
 
   /// Trials in the blocks begun: exactly those before this index.
@@ -77,8 +79,10 @@ std::uint64_t total(const std::vector<Tally>& tallies) {
 /// slot of its index. The slots of different trials are distinct objects: no two workers write the same one.
 class BlockStream final : public TrialStream {
  public:
-  BlockStream(const Plan& plan, BlockQueue& blocks, std::vector<TrialOutcome>& outcomes, Tally& tally)
-      : plan_(plan), blocks_(blocks), outcomes_(outcomes), tally_(tally) {}
+  /// @param prefix  told of every finished trial; null where nothing but the last trial ends the run
+  BlockStream(const Plan& plan, BlockQueue& blocks, std::vector<TrialOutcome>& outcomes, FinishedPrefix* prefix,
+              Tally& tally)
+      : plan_(plan), blocks_(blocks), outcomes_(outcomes), prefix_(prefix), tally_(tally) {}
 
   bool next(std::uint64_t& index, TrialParameters& parameters) override {
     if (block_.begin == block_.end) {
@@ -96,12 +100,14 @@ class BlockStream final : public TrialStream {
   void finished(std::uint64_t index, const TrialOutcome& outcome) override {
     outcomes_[index] = outcome;
     tally_.finished.fetch_add(1, std::memory_order_relaxed);
+    if (prefix_ != nullptr && prefix_->finished(index)) blocks_.halt();
   }
 
  private:
   const Plan& plan_;
   BlockQueue& blocks_;
   std::vector<TrialOutcome>& outcomes_;
+  FinishedPrefix* const prefix_;
   Tally& tally_;
   Block block_{0, 0};
   bool dry_{false};  // a runner may ask again after the end; the answer stays no
@@ -198,7 +204,32 @@ Audit audit_of(const Study& study, const Plan& plan, const TrialTable& trials, c
   return audit;
 }
 
+PrecisionWatch watch_of(const Study& study, const Plan& plan) {
+  return {*study.stop, study.sampling.trials, plan.cells()};
+}
+
+/// Leaves the first `rows` trials.
+void keep(TrialTable& trials, std::uint64_t rows) {
+  trials.outcomes.resize(rows);
+  trials.index.resize(rows);
+  std::iota(trials.index.begin(), trials.index.end(), std::uint64_t{0});
+}
+
 }  // namespace
+
+std::optional<StopReport> watched(const Study& study, const TrialTable& trials) {
+  if (!study.stop) return std::nullopt;
+  PrecisionWatch watch = watch_of(study, Plan(study));
+  for (std::uint64_t row = 0; row < trials.index.size() && trials.index[row] == row && !watch.stopped(); ++row) {
+    watch.add(trials.outcomes[row]);
+  }
+  return watch.report();
+}
+
+std::uint64_t trials_due(const Study& study, const TrialTable& trials) {
+  const std::optional<StopReport> report = watched(study, trials);
+  return report && report->reason ? report->trials : Plan(study).trials();
+}
 
 std::uint64_t block_size(const Study& study) {
   return study.integrator.method == IntegratorChoice::Method::cvode ? 16 : 128;
@@ -218,6 +249,8 @@ StudyResult run_study(const Study& study, const RunOptions& options) {
   if (study.integrator.method == IntegratorChoice::Method::lockstep) result.simd = options.simd;
   result.trials.outcomes.resize(trials);
   BlockQueue blocks(trials, block, options.stop);
+  std::optional<FinishedPrefix> prefix;
+  if (study.stop) prefix.emplace(watch_of(study, plan), result.trials.outcomes, block);
   std::vector<Tally> tallies(workers);
   ProgressReports reports(options, trials, tallies, start, blocks);
 
@@ -227,7 +260,7 @@ StudyResult run_study(const Study& study, const RunOptions& options) {
   arena.execute([&] {
     const auto work = [&](unsigned worker) {
       try {
-        BlockStream stream(plan, blocks, result.trials.outcomes, tallies[worker]);
+        BlockStream stream(plan, blocks, result.trials.outcomes, prefix ? &*prefix : nullptr, tallies[worker]);
         const auto runner =
             options.make_runner ? options.make_runner(study.integrator) : make_runner(study.integrator, options.simd);
         runner->run(stream);
@@ -243,10 +276,11 @@ StudyResult run_study(const Study& study, const RunOptions& options) {
 
   const std::uint64_t kept = blocks.begun();
   if (total(tallies) != kept) throw std::logic_error("a runner returned before its trials were finished");
-  result.complete = kept == trials;
-  result.trials.outcomes.resize(kept);
-  result.trials.index.resize(kept);
-  std::iota(result.trials.index.begin(), result.trials.index.end(), std::uint64_t{0});
+  keep(result.trials, kept);
+  // Of the trials beyond the look that stopped the study, some have run, which ones is a matter of timing.
+  const std::uint64_t due = trials_due(study, result.trials);
+  result.complete = kept >= due;
+  if (result.complete) keep(result.trials, due);
   // Of a few lockstep trials, which fill one block, the audit still has work for every thread.
   tbb::task_arena wide_arena(static_cast<int>(std::min<std::uint64_t>(asked, std::max(workers, cores))));
   wide_arena.execute([&] {

@@ -10,6 +10,7 @@
 #include "core/instruction_set.hpp"
 #include "study/audit.hpp"
 #include "study/plan.hpp"
+#include "study/precision_watch.hpp"
 #include "study/study.hpp"
 #include "trial/replay.hpp"
 #include "trial/runner.hpp"
@@ -34,8 +35,9 @@ struct RunOptions {
   std::function<std::unique_ptr<TrialRunner>(const IntegratorChoice&)> make_runner{};
 };
 
-/// Finished trials, as columns in index order. Whole blocks only: a run that was stopped keeps every block it had
-/// begun, so which trials are kept never depends on how they ended.
+/// Finished trials, as columns in index order. Whole blocks only: a run that was interrupted keeps every block it had
+/// begun, so which trials are kept never depends on how they ended. A study that stopped on precision keeps exactly the
+/// trials up to the look that stopped it.
 struct TrialTable {
   std::vector<std::uint64_t> index;    ///< (rows) ascending
   std::vector<TrialOutcome> outcomes;  ///< (rows)
@@ -44,7 +46,7 @@ struct TrialTable {
 /// What a run leaves.
 struct StudyResult {
   TrialTable trials;
-  bool complete{false};
+  bool complete{false};  ///< every trial is there, or every one up to where the study's rule stopped it
   struct Retained {
     std::uint64_t index;
     Trajectory trajectory;
@@ -60,6 +62,14 @@ struct StudyResult {
 /// with CVODE, whose trials take milliseconds, so that a stop is quick and the last blocks end together. Depends on the
 /// study alone, so that what a stopped run keeps can be compared between machines.
 std::uint64_t block_size(const Study& study);
+
+/// What the study's rule makes of its finished trials: of those from index 0 up to the first gap. Nothing without a
+/// rule.
+std::optional<StopReport> watched(const Study& study, const TrialTable& trials);
+
+/// How many trials a finished run of the study leaves: all, or as many as its rule let it take before it stopped.
+/// @param trials  those that it left
+std::uint64_t trials_due(const Study& study, const TrialTable& trials);
 
 /// Runs a study on TBB, then audits it. The outcomes and the audit are the same bits whatever the number of threads.
 /// Safe to call from several threads at once.

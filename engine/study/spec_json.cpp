@@ -17,6 +17,7 @@
 #include "study/reader_json.hpp"
 #include "study/rules.hpp"
 #include "study/sampling_json.hpp"
+#include "study/stop_json.hpp"
 
 namespace steerstat {
 namespace {
@@ -27,7 +28,7 @@ constexpr Range integrator_tolerance{
     .low = 1e-14, .high = 1e-2, .includes_low = true, .includes_high = true, .rule = "in [1e-14, 0.01]"};
 
 // Keys of the interface that this version has not got yet.
-constexpr std::array<std::string_view, 2> later_keys{"stop", "gates"};
+constexpr std::array<std::string_view, 1> later_keys{"gates"};
 
 std::size_t characters_in(const std::string& utf8) {
   std::size_t count = 0;
@@ -67,24 +68,27 @@ class Decoder {
       study_.sampling = decode_sampling(*sampling, directory_, study_.inputs, mistaken_);
       if (errors_.size() != start) mistaken_.emplace_back("sampling");
     }
+    if (const auto stop = root_.find("stop")) decode_stop_rule(*stop);
     if (const auto retain = root_.find("retain")) decode_retention(*retain);
     if (const auto audit = root_.find("audit")) decode_audit(*audit);
-    if (const auto intervals = root_.find("intervals")) study_.intervals = decode_intervals(*intervals, false);
+    const bool stops = root_.find("stop").has_value();
+    study_.intervals = default_intervals(stops);
+    if (const auto intervals = root_.find("intervals")) study_.intervals = decode_intervals(*intervals, stops);
     check_rules(study_, mistaken_, errors_);
     return study_;
   }
 
  private:
   void refuse_unknown_keys() {
-    static constexpr std::array<std::string_view, 12> known{"name",     "nominal",    "plant",   "initial_state",
-                                                            "goal",     "controller", "horizon", "integrator",
-                                                            "sampling", "retain",     "audit",   "intervals"};
+    static constexpr std::array<std::string_view, 13> known{
+        "name",       "nominal",  "plant", "initial_state", "goal",  "controller", "horizon",
+        "integrator", "sampling", "stop",  "retain",        "audit", "intervals"};
     std::vector<std::string_view> spoken_for(later_keys.begin(), later_keys.end());
     spoken_for.emplace_back("kind");
     root_.refuse_unknown_keys(known, spoken_for);
     for (const std::string_view key : later_keys) {
       if (const auto member = root_.find(key)) {
-        member->fail(fmt::format("this version has no \"{}\" (every trial runs, nothing is judged); remove it", key));
+        member->fail(fmt::format("this version has no \"{}\" (nothing is judged); remove it", key));
       }
     }
   }
@@ -208,6 +212,18 @@ class Decoder {
       }
     }
     study_.goal = goal_at(q1, q2);
+  }
+
+  void decode_stop_rule(const Reader& reader) {
+    const auto sampling = root_.find("sampling");
+    const bool trials_are_given = sampling && sampling->value().is_object() && sampling->find("trials").has_value();
+    const std::size_t before = errors_.size();
+    // Where the sampling has mistakes, the numbers of trials are not held against its own.
+    Sampling unknown;
+    unknown.trials = most_trials;
+    study_.stop = is_mistaken("sampling") ? decode_stop(reader, unknown, false)
+                                          : decode_stop(reader, study_.sampling, trials_are_given);
+    if (errors_.size() != before) mistaken_.emplace_back("stop");
   }
 
   void decode_integrator(const Reader& reader) {

@@ -13,6 +13,7 @@
 #include "robot/plant.hpp"
 #include "sampling/distribution.hpp"
 #include "statistics/proportion.hpp"
+#include "study/stop_rule.hpp"
 #include "trial/runner.hpp"
 
 namespace steerstat {
@@ -98,6 +99,7 @@ struct Study {
   IntegratorChoice integrator{};
   Sampling sampling{};
   Retention retention{};
+  std::optional<StopRule> stop{};  ///< none: every trial runs
   IntervalChoice intervals{};
   std::uint64_t audited_trials{16};  ///< computed again by the reference integrator; all where there are fewer
 

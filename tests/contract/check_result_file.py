@@ -137,6 +137,11 @@ def check_trials(file, spec):
     if file.attrs["complete"]:
         listed = spec["sampling"].get("trials", 1)
         draws = len(listed) if isinstance(listed, list) else listed
+        # A study that stops on precision is complete with fewer trials: whole looks.
+        if "stop" in spec and rows < draws * cells:
+            beyond = rows / cells - spec["stop"]["min_trials"]
+            equal("trials after the last look", beyond % spec["stop"]["check_every"] if beyond >= 0 else None, 0)
+            draws = rows // cells
         equal("index of a complete file", index.tolist(), list(range(draws * cells * trials_a_draw(spec, names))))
 
 
@@ -232,6 +237,11 @@ def check_summary(file, spec, path):
     equal("wall_s", summary["performance"]["wall_s"], file.attrs["wall_s"])
     equal("simd", summary["performance"]["simd"] or "none", file.attrs["simd"])
     check_audit_summary(file, summary["audit"])
+    equal("has stop", summary["stop"] is not None, "stop" in spec)
+    if summary["complete"] and summary["stop"]:
+        equal("trials at the stop", summary["stop"]["trials"], len(trials["status"]))
+        reached = [goal["reached"] for goal in summary["stop"]["until"]]
+        equal("reason", summary["stop"]["reason"], "precision_reached" if all(reached) else "max_trials")
     names, cells = varying_inputs(spec)
     # The statistics of a study of Sobol' indices are those of the first two trials of each row.
     independent = file["trials/index"][:] % trials_a_draw(spec, names) < 2

@@ -36,7 +36,7 @@ std::vector<std::string> with_metrics(std::vector<std::string> before, const std
 TEST(SummaryJson, HasTheInterfacesKeysInItsOrder) {
   const Json json = json_of(made_up_sweep(2));
   EXPECT_EQ(keys_of(json), with_metrics({"study", "complete", "trials", "success_rate", "outcomes"},
-                                        {"cells", "sensitivity", "gates", "audit", "performance"}));
+                                        {"stop", "cells", "sensitivity", "gates", "audit", "performance"}));
   EXPECT_EQ(keys_of(json["study"]), (std::vector<std::string>{"id", "name", "spec_sha256", "engine_version", "seed"}));
   EXPECT_EQ(keys_of(json["trials"]), (std::vector<std::string>{"requested", "completed"}));
   EXPECT_EQ(keys_of(json["success_rate"]),
@@ -66,6 +66,27 @@ TEST(SummaryJson, HoldsTheSummarysValuesToTheBit) {
   EXPECT_EQ(json["gates"], Json::array());
   EXPECT_TRUE(json["audit"].is_null());
   EXPECT_EQ(json["performance"]["trials_per_s"].get<double>(), 2.5);
+}
+
+TEST(SummaryJson, TellsWhereTheStudyStoppedAndHowPreciseItWasThere) {
+  Summary summary = made_up_summary({90, 10, 0, 0, 0});
+  EXPECT_TRUE(json_of(summary)["stop"].is_null());
+  Summary::Stop& stop = summary.stop.emplace();
+  stop.rule = {50, 10, 0.9, {{"success_rate", std::nullopt, 0.1, false}, {"settling_time", 0.95, 0.2, true}}};
+  stop.report = {
+      100, 6, StopReason::precision_reached, {{0, 0.9, 0.82, 0.95, true}, {0, 40.0, 36.0, std::nullopt, false}}};
+  const Json json = json_of(summary)["stop"];
+  EXPECT_EQ(keys_of(json), (std::vector<std::string>{"reason", "trials", "looks", "level", "until"}));
+  EXPECT_EQ(json["reason"], "precision_reached");
+  EXPECT_EQ(json["trials"], 100);
+  EXPECT_EQ(json["looks"], 6);
+  EXPECT_EQ(json["level"], 0.9);
+  EXPECT_EQ(json["until"][0], Json::parse(R"({"metric": "success_rate", "quantile": null, "half_width": 0.1,
+      "reached": true, "cell": null, "estimate": 0.9, "ci_low": 0.82, "ci_high": 0.95})"));
+  EXPECT_EQ(json["until"][1], Json::parse(R"({"metric": "settling_time", "quantile": 0.95, "relative_half_width": 0.2,
+      "reached": false, "cell": null, "estimate": 40.0, "ci_low": 36.0, "ci_high": null})"));
+  stop.report.reason.reset();
+  EXPECT_TRUE(json_of(summary)["stop"]["reason"].is_null());
 }
 
 TEST(SummaryJson, TellsWhatTheAuditFound) {

@@ -74,6 +74,18 @@ TEST(Summarise, TakesTheIntervalThatTheSpecAsksFor) {
   EXPECT_EQ(summary.cells[0].statistics.success_rate->low, clopper_pearson_interval(2, 3, 0.9).low);
 }
 
+TEST(Summarise, FollowsTheRuleOfAStudyThatStops) {
+  Study study = sweep_of_two(4);
+  EXPECT_FALSE(summarise(study, six_trials()).stop);
+  study.stop = StopRule{2, 1, 0.95, {{"success_rate", std::nullopt, 0.49, false}}};
+  study.intervals = default_intervals(true);
+  const Summary summary = summarise(study, six_trials());
+  ASSERT_TRUE(summary.stop);
+  EXPECT_EQ(summary.stop->rule, *study.stop);
+  EXPECT_EQ(summary.stop->report.trials, watched(study, six_trials().trials)->trials);
+  EXPECT_EQ(summary.all.success_rate->low, proportion_interval(ProportionMethod::confidence_sequence, 3, 6, 0.95).low);
+}
+
 TEST(Summarise, DescribesTheConvergedTrialsAlone) {
   const TrialStatistics all = summarise(sweep_of_two(4), six_trials()).all;
   EXPECT_EQ(all.of("settling_time"), describe(std::vector<double>{40.0, 50.0, 90.0}));

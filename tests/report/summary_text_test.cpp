@@ -67,6 +67,27 @@ TEST(SummaryText, SaysThatNoTrialHasFinished) {
   EXPECT_THAT(summary_text(summary, false), AllOf(HasSubstr("No trial has finished."), Not(HasSubstr("nan"))));
 }
 
+TEST(SummaryText, SaysWhereTheStudyStoppedAndWhy) {
+  Summary summary = made_up_summary({90, 10, 0, 0, 0});
+  summary.requested = 5000;
+  summary.intervals.method = ProportionMethod::confidence_sequence;
+  Summary::Stop& stop = summary.stop.emplace();
+  stop.rule = {50, 10, 0.95, {{"success_rate", std::nullopt, 0.1, false}, {"settling_time", 0.95, 0.2, true}}};
+  stop.report = {100, 6, StopReason::precision_reached, {{0, 0.9, 0.8, 0.95, true}, {0, 400.0, 362.5, 410.0, true}}};
+  const std::string text = summary_text(summary, false);
+  EXPECT_THAT(text, HasSubstr("at most 5,000 trials"));
+  EXPECT_THAT(text, HasSubstr("(confidence sequence)"));
+  EXPECT_THAT(text, HasSubstr("\n  Stopped  with the precision asked for after 100 of at most 5,000 trials, at look 6\n"
+                              "           success_rate within 0.1: 0.8 to 0.95 at 95 %\n"
+                              "           the 95 % quantile of settling_time within 20 %: 362.5 to 410 at 95 %\n"));
+  stop.report.reason = StopReason::max_trials;
+  stop.report.goals[1] = {0, 400.0, 362.5, std::nullopt, false};
+  EXPECT_THAT(summary_text(summary, false),
+              AllOf(HasSubstr("short of the precision asked for"), HasSubstr("362.5 to – at 95 %, not reached\n")));
+  stop.report.reason.reset();
+  EXPECT_THAT(summary_text(summary, false), Not(HasSubstr("Stopped")));
+}
+
 Summary audited_summary(AuditStatistics audit) {
   Summary summary = made_up_summary({1403, 590, 5, 2, 0});
   summary.audit = std::move(audit);

@@ -242,6 +242,27 @@ TEST_F(ForeignFile, MustHaveAllTrialsWhenItIsCalledComplete) {
   EXPECT_THAT(complaint(), HasSubstr("complete with 119 of 120 trials"));
 }
 
+TEST_F(ForeignFile, OfAStudyThatStopsIsCompleteWithTheTrialsUpToItsLastLook) {
+  Study study = study_;
+  study.stop = StopRule{5, 5, 0.95, {{"success_rate", std::nullopt, 0.3, false}}};
+  study.intervals = default_intervals(true);
+  StudyResult result = made_up_result(study);
+  const std::uint64_t due = trials_due(study, result.trials);
+  ASSERT_LT(due, 120U);
+  for (const std::uint64_t rows : {due + 1, due, due - 1}) {
+    result.trials.index.resize(rows);
+    result.trials.outcomes.resize(rows);
+    write_result(path_, study, result);
+    if (rows == due) {
+      EXPECT_TRUE(read_result(path_).result.complete);
+    } else {
+      // Fewer do not reach the look, so that all would be due.
+      EXPECT_THAT(complaint(),
+                  HasSubstr("complete with " + std::to_string(rows) + " of " + std::to_string(rows > due ? due : 120)));
+    }
+  }
+}
+
 TEST_F(ForeignFile, WithAColumnThatItsChecksumContradictsIsRefusedInTheWordsOfHdf5) {
   // Flip a bit of a stored value, then seal the file anew: only the chunk's own checksum can tell.
   const std::string content = bytes_.substr(0, bytes_.size() - seal_of({}).size());
