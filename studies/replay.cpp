@@ -79,7 +79,7 @@ ExitCode run(const Request& request) {
   const Plan plan(stored.study);
   std::vector<double> values;
   for (const std::vector<double>& column : stored.parameters) values.push_back(column[row]);
-  const Trajectory trajectory = replay(plan.parameters_with(values), stored.study.integrator);
+  const Trajectory trajectory = replay(plan.parameters_with(index, values), stored.study.integrator);
   require_same_end(trajectory.outcome, stored.result.trials.outcomes[row], stored, request.file, index);
 
   const std::string text = output.extension() == ".json"

@@ -37,6 +37,8 @@ struct Phase {
   double q2_high{unbounded};       ///< [rad] drift: guard q2_high - q2
   double direction{1.0};           ///< +1 or -1: the sign of q2_dot that the speed guard watches
   double speed_floor{-unbounded};  ///< [rad/s] drift: guard direction * q2_dot - speed_floor
+  double q1_offset{0.0};           ///< [m] align: what its law and its guard read of q1, less the truth
+  double q1_dot_offset{0.0};       ///< [m/s] align: the same of q1_dot
 
   friend bool operator==(const Phase&, const Phase&) = default;
 };

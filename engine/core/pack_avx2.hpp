@@ -65,6 +65,9 @@ inline Pack abs(Pack x) {
   const __m256d sign = _mm256_set1_pd(-0.0);
   return {_mm256_andnot_pd(sign, x.a), _mm256_andnot_pd(sign, x.b)};
 }
+inline Pack sqrt(Pack x) {
+  return {_mm256_sqrt_pd(x.a), _mm256_sqrt_pd(x.b)};
+}
 /// y where x is not a number, as the instruction has it.
 inline Pack max(Pack x, Pack y) {
   return {_mm256_max_pd(x.a, y.a), _mm256_max_pd(x.b, y.b)};

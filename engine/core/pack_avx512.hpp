@@ -62,6 +62,9 @@ inline Pack fnma(Pack x, Pack y, Pack z) {
 inline Pack abs(Pack x) {
   return {_mm512_abs_pd(x.a), _mm512_abs_pd(x.b)};
 }
+inline Pack sqrt(Pack x) {
+  return {_mm512_sqrt_pd(x.a), _mm512_sqrt_pd(x.b)};
+}
 /// y where x is not a number, as the instruction has it.
 inline Pack max(Pack x, Pack y) {
   return {_mm512_max_pd(x.a, y.a), _mm512_max_pd(x.b, y.b)};

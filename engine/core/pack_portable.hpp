@@ -113,6 +113,9 @@ inline Pack fnma(Pack x, Pack y, Pack z) {
 inline Pack abs(Pack x) {
   return detail::each([](double p) { return std::abs(p); }, x);
 }
+inline Pack sqrt(Pack x) {
+  return detail::each([](double p) { return std::sqrt(p); }, x);
+}
 /// y where x is not a number, as the vector instructions have it.
 inline Pack max(Pack x, Pack y) {
   return detail::each([](double p, double q) { return p > q ? p : q; }, x, y);

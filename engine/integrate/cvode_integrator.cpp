@@ -85,13 +85,29 @@ int right_hand_side(realtype t, N_Vector y, N_Vector y_dot, void* user) {
   return is_finite(rate) ? 0 : 1;  // 1: try again with a shorter step
 }
 
+/// How much more force [N] the actuator could give than it is asked for: where this changes its sign, the closed loop
+/// has a kink.
+double spare_force(const PhaseContext& context, double t, const State<double>& x) {
+  const auto& [loop, phase] = context;
+  if (!(loop.actuator.max_force < Phase::unbounded)) return Phase::unbounded;
+  const double a = commanded_acceleration(loop, phase, t, x);
+  const double asked = loop.actuator.gain * demanded_force(loop, a, x, std::sin(x.q2), std::cos(x.q2));
+  return loop.actuator.max_force - std::abs(asked);
+}
+
+/// The guards, and after them the spare force.
+constexpr std::size_t root_count = guard_count + 1;
+constexpr std::size_t kink = guard_count;
+
 int root_functions(realtype t, N_Vector y, realtype* g, void* user) {
-  const auto& [loop, phase] = *static_cast<const PhaseContext*>(user);
-  const std::array<double, guard_count> values = guards(phase, loop.q1_goal, state_of(y));
+  const auto& context = *static_cast<const PhaseContext*>(user);
+  const State<double> x = state_of(y);
+  const std::array<double, guard_count> values = guards(context.phase, context.loop.q1_goal, x);
   for (std::size_t i = 0; i < guard_count; ++i) {
     // CVODE puts a function that starts at exactly 0 out of action, and would leave it so in phases to come.
     g[i] = (t == 0.0 && values[i] == 0.0) ? -std::numeric_limits<double>::min() : values[i];
   }
+  g[kink] = spare_force(context, t, x);
   return 0;
 }
 
@@ -106,7 +122,7 @@ struct CvodeIntegrator::Solver final : DenseOutput {
   [[nodiscard]] State<double> at(double t) const override { return interpolate(t - origin); }
 
   [[nodiscard]] State<double> interpolate(double t) const;
-  [[nodiscard]] StepPolynomial step_polynomial(double from) const;
+  [[nodiscard]] StepPolynomial step_polynomial(double from, double to) const;
 
   /// A moment of the phase, with what the guards need of it.
   struct Moment {
@@ -116,7 +132,10 @@ struct CvodeIntegrator::Solver final : DenseOutput {
     std::array<double, guard_count> rates;  // the most that |d guard / dt| can be here
   };
   [[nodiscard]] Moment moment(double t, const State<double>& x) const;
-  std::optional<double> find_crossing(const Moment& before, const Moment& after, bool rooted);
+  std::optional<double> find_crossing(const Moment& before, const Moment& after, bool rooted, double to);
+  [[nodiscard]] bool restart(double now, double duration);
+  [[nodiscard]] bool guard_rooted() const;
+  [[nodiscard]] double step_end() const;
 
   sundials::Context context;
   Vector y;
@@ -137,8 +156,9 @@ CvodeIntegrator::Solver::Solver(double tolerance)
   require(nonlinear_solver != nullptr, "SUNNonlinSol_FixedPoint");
   require(cvode != nullptr, "CVodeCreate");
   void* memory = cvode.get();
-  std::array<int, guard_count> falling{};
-  falling.fill(-1);
+  std::array<int, root_count> directions{};
+  directions.fill(-1);
+  directions[kink] = 0;
   N_VConst(0.0, y.get());
   require(N_VEnableFusedOps_Serial(y.get(), SUNTRUE) == 0, "N_VEnableFusedOps_Serial");  // CVODE's vectors are clones
   require(CVodeSetErrHandlerFn(memory, stay_silent, nullptr) == CV_SUCCESS, "CVodeSetErrHandlerFn");
@@ -152,8 +172,8 @@ CvodeIntegrator::Solver::Solver(double tolerance)
   require(CVodeSVtolerances(memory, relative, work.get()) == CV_SUCCESS, "CVodeSVtolerances");
   require(CVodeSetNonlinearSolver(memory, nonlinear_solver.get()) == CV_SUCCESS, "CVodeSetNonlinearSolver");
   require(CVodeSetMaxHnilWarns(memory, -1) == CV_SUCCESS, "CVodeSetMaxHnilWarns");
-  require(CVodeRootInit(memory, guard_count, root_functions) == CV_SUCCESS, "CVodeRootInit");
-  require(CVodeSetRootDirection(memory, falling.data()) == CV_SUCCESS, "CVodeSetRootDirection");
+  require(CVodeRootInit(memory, root_count, root_functions) == CV_SUCCESS, "CVodeRootInit");
+  require(CVodeSetRootDirection(memory, directions.data()) == CV_SUCCESS, "CVodeSetRootDirection");
   require(CVodeSetNoInactiveRootWarn(memory) == CV_SUCCESS, "CVodeSetNoInactiveRootWarn");
 }
 
@@ -167,15 +187,20 @@ State<double> CvodeIntegrator::Solver::interpolate(double t) const {
   return state_of(work.get());
 }
 
-/// The last step's dense output. @param from  [s] its start
-StepPolynomial CvodeIntegrator::Solver::step_polynomial(double from) const {
-  int order = 0;
+/// [s] since the phase's start: where the last step ended, which is beyond a root found within it.
+double CvodeIntegrator::Solver::step_end() const {
   double now = 0.0;
-  CVodeGetLastOrder(cvode.get(), &order);
   CVodeGetCurrentTime(cvode.get(), &now);
+  return now;
+}
+
+/// The last step's dense output on a part of it. @param from, to  [s]
+StepPolynomial CvodeIntegrator::Solver::step_polynomial(double from, double to) const {
+  int order = 0;
+  CVodeGetLastOrder(cvode.get(), &order);
   StepPolynomial step;
   step.start = from;
-  step.width = now - from;
+  step.width = to - from;
   step.order = static_cast<std::size_t>(order);
   double scale = 1.0;  // width^k / k!
   for (int k = 0; k <= order; ++k) {
@@ -185,6 +210,18 @@ StepPolynomial CvodeIntegrator::Solver::step_polynomial(double from) const {
     step.coefficients[static_cast<std::size_t>(k)] = {scale * d.q1, scale * d.q2, scale * d.q1_dot, scale * d.q2_dot};
   }
   return step;
+}
+
+/// Whether the root that CVODE has just returned is one of a guard.
+bool CvodeIntegrator::Solver::guard_rooted() const {
+  std::array<int, root_count> found{};
+  CVodeGetRootInfo(cvode.get(), found.data());
+  return std::any_of(found.begin(), found.begin() + guard_count, [](int sign) { return sign != 0; });
+}
+
+/// Starts the method anew where y stands, so that no step reaches over a kink. @return whether that went well
+bool CvodeIntegrator::Solver::restart(double now, double duration) {
+  return CVodeReInit(cvode.get(), now, y.get()) == CV_SUCCESS && CVodeSetStopTime(cvode.get(), duration) == CV_SUCCESS;
 }
 
 CvodeIntegrator::Solver::Moment CvodeIntegrator::Solver::moment(double t, const State<double>& x) const {
@@ -202,8 +239,10 @@ CvodeIntegrator::Solver::Moment CvodeIntegrator::Solver::moment(double t, const 
 /// CVODE looks at a step's ends, so it misses a guard that dips below zero and returns, and of several crossings it may
 /// find any. The step's polynomial is searched wherever a guard moves fast enough to have dipped.
 ///
-/// @param rooted  whether `after` is a root that CVODE found
-std::optional<double> CvodeIntegrator::Solver::find_crossing(const Moment& before, const Moment& after, bool rooted) {
+/// @param rooted  whether `after` is a root of a guard that CVODE found
+/// @param to      how far the step's polynomial counts [s]
+std::optional<double> CvodeIntegrator::Solver::find_crossing(const Moment& before, const Moment& after, bool rooted,
+                                                             double to) {
   constexpr double rate_margin = 4.0;  // how much faster than at its ends a guard may move within a step
   std::optional<StepPolynomial> step;
   std::optional<double> first;
@@ -214,7 +253,7 @@ std::optional<double> CvodeIntegrator::Solver::find_crossing(const Moment& befor
     const double reach = rate_margin * width * std::max(before.rates[i], after.rates[i]);
     const bool apart = before.guards[i] > 0.0 && after.guards[i] > 0.0 && before.guards[i] + after.guards[i] > reach;
     if (armed[i] && apart) continue;
-    if (!step) step = step_polynomial(before.t);
+    if (!step) step = step_polynomial(before.t, to);
     const std::optional<double> crossing = first_crossing(*step, user.phase, user.loop.q1_goal, i, armed[i]);
     if (crossing && (!first || *crossing < *first)) first = crossing;
   }
@@ -228,25 +267,31 @@ Arrival CvodeIntegrator::Solver::advance(double t0, const State<double>& x0, dou
   if (!is_finite(x0)) return {t0, x0, Cause::failure};
   origin = t0;
   store(x0, y.get());
-  if (CVodeReInit(cvode.get(), 0.0, y.get()) != CV_SUCCESS) return {t0, x0, Cause::failure};
-  if (CVodeSetStopTime(cvode.get(), duration) != CV_SUCCESS) return {t0, x0, Cause::failure};
+  if (!restart(0.0, duration)) return {t0, x0, Cause::failure};
 
   Moment before = moment(0.0, x0);
   for (std::size_t i = 0; i < guard_count; ++i) armed[i] = before.guards[i] > 0.0;
+  long started = 0;  // the step before which the method began
   for (long steps = 0; steps < most_steps; ++steps) {
     double now = 0.0;
     const int flag = CVode(cvode.get(), duration, y.get(), &now, CV_ONE_STEP);
     if (flag < 0) return {t0 + before.t, before.x, Cause::failure};
-    const bool rooted = flag == CV_ROOT_RETURN;
-    const bool ended = flag == CV_TSTOP_RETURN;
+    const bool rooted = flag == CV_ROOT_RETURN && guard_rooted();
+    const bool kinked = flag == CV_ROOT_RETURN && !rooted;
+    const bool ended = flag == CV_TSTOP_RETURN || (kinked && duration - now <= least_step);
     const Moment after = moment(now, state_of(y.get()));
-    const std::optional<double> crossing = find_crossing(before, after, rooted);
+    const std::optional<double> crossing = find_crossing(before, after, rooted, kinked ? now : step_end());
     const double t = ended && !crossing ? t_end : std::min(t0 + crossing.value_or(now), t_end);
     if (observer != nullptr) observer->step(t0 + before.t, t, *this);
     if (crossing) return {t, interpolate(*crossing), Cause::guard};
     if (rooted) return {t, after.x, Cause::guard};
     if (ended) return {t, after.x, Cause::time};
-    if (now - before.t < least_step && steps >= start_steps) return {t, after.x, Cause::failure};
+    if (kinked) {
+      if (!restart(now, duration)) return {t, after.x, Cause::failure};
+      started = steps + 1;
+    } else if (now - before.t < least_step && steps - started >= start_steps) {
+      return {t, after.x, Cause::failure};
+    }
     before = after;
   }
   return {t0 + before.t, before.x, Cause::failure};

@@ -8,26 +8,32 @@ namespace steerstat {
 #if defined(__x86_64__)
 namespace avx512 {
 LockstepEngine* make_kernel(double tolerance);
-}
+LockstepEngine* make_imperfect_kernel(double tolerance);
+}  // namespace avx512
 namespace avx2 {
 LockstepEngine* make_kernel(double tolerance);
-}
+LockstepEngine* make_imperfect_kernel(double tolerance);
+}  // namespace avx2
 #endif
 namespace portable {
 LockstepEngine* make_kernel(double tolerance);
-}
+LockstepEngine* make_imperfect_kernel(double tolerance);
+}  // namespace portable
 
-std::unique_ptr<LockstepEngine> make_lockstep_engine(double tolerance, InstructionSet set) {
+std::unique_ptr<LockstepEngine> make_lockstep_engine(double tolerance, InstructionSet set, LoopKind kind) {
+  const auto make = [&](auto ideal, auto imperfect) {
+    return std::unique_ptr<LockstepEngine>(kind == LoopKind::ideal ? ideal(tolerance) : imperfect(tolerance));
+  };
   if (supports(set)) {
     switch (set) {
 #if defined(__x86_64__)
       case InstructionSet::avx512:
-        return std::unique_ptr<LockstepEngine>(avx512::make_kernel(tolerance));
+        return make(avx512::make_kernel, avx512::make_imperfect_kernel);
       case InstructionSet::avx2:
-        return std::unique_ptr<LockstepEngine>(avx2::make_kernel(tolerance));
+        return make(avx2::make_kernel, avx2::make_imperfect_kernel);
 #endif
       case InstructionSet::portable:
-        return std::unique_ptr<LockstepEngine>(portable::make_kernel(tolerance));
+        return make(portable::make_kernel, portable::make_imperfect_kernel);
       default:
         break;
     }

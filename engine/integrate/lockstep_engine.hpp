@@ -37,10 +37,11 @@ class LockstepEngine {
   /// @return how many lanes, at most 64
   [[nodiscard]] virtual int lanes() const = 0;
 
-  /// Gives a lane to a trial. @param loop  its closed loop
+  /// Gives a lane to a trial. @param loop  its closed loop; only a LoopKind::imperfect engine takes imperfections
   virtual void seat(int lane, const ClosedLoop<double>& loop) = 0;
 
-  /// Starts a phase in a seated lane. @param t, x  time [s] and state, @param t_end  [s] > t, no phase runs past it
+  /// Starts a phase in a seated lane. @param phase  only a LoopKind::imperfect engine takes its offsets, @param t, x
+  /// time [s] and state, @param t_end  [s] > t, no phase runs past it
   virtual void start(int lane, const Phase& phase, double t, const State<double>& x, double t_end) = 0;
 
   /// Takes a lane out of the work.
@@ -61,8 +62,15 @@ class LockstepEngine {
   Counters counters_;
 };
 
+/// Which closed loops an engine takes.
+enum class LoopKind : std::uint8_t {
+  ideal,      ///< without imperfections; the fast engine
+  imperfect,  ///< any; of those without imperfections the bits differ from the fast engine's
+};
+
 /// @param tolerance  bound on a step's local error in each velocity [m/s, rad/s]; a step aims at an eighth of it
 /// @param set        one that supports(set)
-std::unique_ptr<LockstepEngine> make_lockstep_engine(double tolerance, InstructionSet set);
+std::unique_ptr<LockstepEngine> make_lockstep_engine(double tolerance, InstructionSet set,
+                                                     LoopKind kind = LoopKind::ideal);
 
 }  // namespace steerstat

@@ -16,8 +16,8 @@ class LaneOutput final : public DenseOutput {
 
 }  // namespace
 
-LockstepIntegrator::LockstepIntegrator(double tolerance, InstructionSet set, int lane)
-    : engine_(make_lockstep_engine(tolerance, set)), lane_(lane) {}
+LockstepIntegrator::LockstepIntegrator(double tolerance, InstructionSet set, int lane, LoopKind kind)
+    : engine_(make_lockstep_engine(tolerance, set, kind)), lane_(lane) {}
 
 Arrival LockstepIntegrator::advance(const ClosedLoop<double>& loop, const Phase& phase, double t,
                                     const State<double>& x, double t_end, StepObserver* observer) {

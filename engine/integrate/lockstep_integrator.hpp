@@ -11,7 +11,9 @@ namespace steerstat {
 class LockstepIntegrator {
  public:
   /// @param tolerance  local error per step
-  explicit LockstepIntegrator(double tolerance, InstructionSet set = best_instruction_set(), int lane = 0);
+  /// @param kind       which loops it takes
+  explicit LockstepIntegrator(double tolerance, InstructionSet set = best_instruction_set(), int lane = 0,
+                              LoopKind kind = LoopKind::ideal);
 
   /// Integrates one phase. @param t, x  time [s] and state at its start, @param t_end  [s] > t, where it ends unless a
   /// guard of `phase` fires first, @param observer  watches the steps; may be null

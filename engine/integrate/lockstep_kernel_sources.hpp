@@ -10,6 +10,12 @@
 
 #include "integrate/lockstep_kernel.hpp"
 
+#include "integrate/lockstep_imperfect_series.hpp"
+
+#include "integrate/lockstep_imperfect_lanes.hpp"
+
+#include "integrate/lockstep_imperfect_kernel.hpp"
+
 namespace steerstat::STEERSTAT_ISA {
 
 LockstepEngine* make_kernel(double tolerance) {
@@ -17,6 +23,10 @@ LockstepEngine* make_kernel(double tolerance) {
   constexpr double finest_mixed = 5e-10;
   if (tolerance >= finest_mixed) return new Kernel<mixed>(tolerance);
   return new Kernel<full>(tolerance);
+}
+
+LockstepEngine* make_imperfect_kernel(double tolerance) {
+  return new ImperfectKernel(tolerance);
 }
 
 }  // namespace steerstat::STEERSTAT_ISA

@@ -15,16 +15,20 @@ std::size_t linear_guard(const StepPolynomial& step, double State<double>::*fiel
   return step.order + 1;
 }
 
-/// (q1 - q1_goal)^2 + q1_dot^2 - tolerance^2, which has the signs of the active error's guard.
-std::size_t active_guard(const StepPolynomial& step, double q1_goal, double tolerance, Coefficients& p) {
+/// (q1 - q1_goal)^2 + q1_dot^2 - tolerance^2 of what is read, which has the signs of the active error's guard.
+std::size_t active_guard(const StepPolynomial& step, double q1_goal, const Phase& phase, Coefficients& p) {
   p.fill(0.0);
-  const auto error = [&](std::size_t k) { return step.coefficients[k].q1 - (k == 0 ? q1_goal : 0.0); };
+  const auto error = [&](std::size_t k) {
+    const double q1 = step.coefficients[k].q1;
+    return k == 0 ? q1 + phase.q1_offset - q1_goal : q1;
+  };
+  const auto velocity = [&](std::size_t k) {
+    return step.coefficients[k].q1_dot + (k == 0 ? phase.q1_dot_offset : 0.0);
+  };
   for (std::size_t i = 0; i <= step.order; ++i) {
-    for (std::size_t k = 0; k <= step.order; ++k) {
-      p[i + k] += error(i) * error(k) + step.coefficients[i].q1_dot * step.coefficients[k].q1_dot;
-    }
+    for (std::size_t k = 0; k <= step.order; ++k) p[i + k] += error(i) * error(k) + velocity(i) * velocity(k);
   }
-  p[0] -= tolerance * tolerance;
+  p[0] -= phase.active_tolerance * phase.active_tolerance;
   return 2 * step.order + 1;
 }
 
@@ -32,7 +36,7 @@ std::size_t guard_polynomial(const StepPolynomial& step, const Phase& phase, dou
                              Coefficients& p) {
   switch (guard) {
     case 0:
-      return active_guard(step, q1_goal, phase.active_tolerance, p);
+      return active_guard(step, q1_goal, phase, p);
     case 1:
       return linear_guard(step, &State<double>::q2, 1.0, -phase.q2_low, p);
     case 2:

@@ -48,6 +48,23 @@ Real coupling(const PlantParameters<Real>& p) {
   return k.moment / k.inertia;
 }
 
+/// Generalised forces on the joints.
+template <class Real>
+struct GeneralisedForces {
+  Real force;   ///< [N] on the first joint
+  Real torque;  ///< [N m] on the second
+};
+
+/// Joint accelerations under the generalised forces that stand to the right of (1) and (2).
+///
+/// @param coupled  m2 d2 sin q2 [kg m]
+template <class Real>
+Accelerations<Real> solve_accelerations(const PlantConstants<Real>& k, const Real& coupled, const Real& force,
+                                        const Real& torque) {
+  const Real reciprocal = Real(1.0) / (k.mass * k.inertia - coupled * coupled);
+  return {(force * k.inertia + coupled * torque) * reciprocal, (k.mass * torque + coupled * force) * reciprocal};
+}
+
 /// (1)-(2) with viscous friction (§5), solved for the accelerations.
 ///
 /// @param x      state; only the velocities are read
@@ -59,8 +76,17 @@ Accelerations<Real> accelerations(const PlantConstants<Real>& k, const State<Rea
   const Real coupled = k.moment * s;
   const Real force = tau + k.moment * c * (x.q2_dot * x.q2_dot) - k.f1 * x.q1_dot;  // (1)
   const Real torque = -(k.f2 * x.q2_dot);                                           // (2)
-  const Real reciprocal = Real(1.0) / (k.mass * k.inertia - coupled * coupled);
-  return {(force * k.inertia + coupled * torque) * reciprocal, (k.mass * torque + coupled * force) * reciprocal};
+  return solve_accelerations(k, coupled, force, torque);
+}
+
+/// The same under further forces on both joints, `external`.
+template <class Real>
+Accelerations<Real> accelerations(const PlantConstants<Real>& k, const State<Real>& x, const Real& s, const Real& c,
+                                  const Real& tau, const GeneralisedForces<Real>& external) {
+  const Real coupled = k.moment * s;
+  const Real force = tau + k.moment * c * (x.q2_dot * x.q2_dot) - k.f1 * x.q1_dot + external.force;  // (1)
+  const Real torque = external.torque - k.f2 * x.q2_dot;                                             // (2)
+  return solve_accelerations(k, coupled, force, torque);
 }
 
 /// Kinetic energy [J], the whole mechanical energy on the horizontal plane.

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "study/input_json.hpp"
+#include "study/inputs.hpp"
 #include "study/intervals_json.hpp"
 #include "study/sampling_json.hpp"
 #include "study/spec_json.hpp"
@@ -64,6 +66,23 @@ Canonical encode_nominal(const PlantParameters<double>& p) {
   return {{"m1", p.m1}, {"m2", p.m2}, {"d2", p.d2}, {"I2", p.I2}, {"f1", p.f1}, {"f2", p.f2}};
 }
 
+bool is_off(const Input& input) {
+  const auto* number = std::get_if<double>(&input.value);
+  return number != nullptr && *number == find_input(input.name)->default_value();
+}
+
+bool is_imperfection(const Input& input) {
+  return find_input(input.name)->is_imperfection;
+}
+
+// A study without imperfections mentions none, so that it is the same study to an engine that knows of none; in another
+// they are all filled in, but for the force limit that is no number.
+bool is_mentioned(const Input& input, bool has_imperfections) {
+  if (!is_imperfection(input)) return true;
+  const auto* number = std::get_if<double>(&input.value);
+  return has_imperfections && (number == nullptr || std::isfinite(*number));
+}
+
 // Puts an input's value where its dotted name says.
 void place(const Input& input, Canonical& spec) {
   Canonical* object = &spec;
@@ -81,7 +100,12 @@ std::string canonical_spec(const Study& study) {
   Canonical spec = Canonical::object();
   spec["name"] = study.name;
   spec["nominal"] = encode_nominal(study.nominal);
-  for (const Input& input : study.inputs) place(input, spec);
+  const bool has_imperfections = std::any_of(study.inputs.begin(), study.inputs.end(), [](const Input& input) {
+    return is_imperfection(input) && !is_off(input);
+  });
+  for (const Input& input : study.inputs) {
+    if (is_mentioned(input, has_imperfections)) place(input, spec);
+  }
   spec["controller"]["realignment"] = realignment_names[static_cast<std::size_t>(study.realignment)];
   spec["goal"] = {{"q1", study.goal.q1}, {"q2", study.goal.q2}};
   spec["horizon"] = study.horizon;

@@ -14,8 +14,8 @@
 namespace steerstat {
 namespace {
 
-bool is_plant(const InputDefinition& definition) {
-  return definition.name.starts_with("plant.");
+bool has_nominal_value(const InputDefinition& definition) {
+  return definition.name.starts_with("plant.") && !definition.is_imperfection;
 }
 
 std::string values_rule(const InputDefinition& definition) {
@@ -60,8 +60,10 @@ bool require_possible_values(const InputDefinition& definition, const Distributi
 std::optional<double> scale_of(const InputDefinition& definition, std::optional<double> nominal, const Reader& reader) {
   const auto relative = reader.find("relative");
   if (!relative) return 1.0;
-  if (!is_plant(definition)) {
-    relative->fail("only plant values can be relative (they multiply the nominal value); give absolute values");
+  if (!has_nominal_value(definition)) {
+    relative->fail(
+        "only plant values that the controller has a nominal value of can be relative (they multiply it); give "
+        "absolute values");
     return std::nullopt;
   }
   const auto is_relative = relative->boolean();

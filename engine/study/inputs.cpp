@@ -17,6 +17,7 @@ constexpr Range fraction{.low = 0.0, .high = 1.0, .rule = "in (0, 1)"};
 constexpr Range authority{.low = 0.0, .high = 0.9, .includes_low = true, .rule = "in [0, 0.9)"};
 
 using T = TrialParameters;
+constexpr bool imperfection = true;
 
 constexpr std::array<InputDefinition, input_count> definitions{{
     InputDefinition{"plant.m1", "kg", positive, [](T& p) -> double& { return p.plant.m1; }},
@@ -25,6 +26,18 @@ constexpr std::array<InputDefinition, input_count> definitions{{
     InputDefinition{"plant.I2", "kg m^2", positive, [](T& p) -> double& { return p.plant.I2; }},
     InputDefinition{"plant.f1", "N s/m", non_negative, [](T& p) -> double& { return p.plant.f1; }},
     InputDefinition{"plant.f2", "N m s/rad", non_negative, [](T& p) -> double& { return p.plant.f2; }},
+    InputDefinition{"plant.coulomb1", "N", non_negative, [](T& p) -> double& { return p.disturbance.coulomb1; },
+                    imperfection},
+    InputDefinition{"plant.coulomb2", "N m", non_negative, [](T& p) -> double& { return p.disturbance.coulomb2; },
+                    imperfection},
+    InputDefinition{"plant.coulomb_speed1", "m/s", positive,
+                    [](T& p) -> double& { return p.disturbance.coulomb_speed1; }, imperfection},
+    InputDefinition{"plant.coulomb_speed2", "rad/s", positive,
+                    [](T& p) -> double& { return p.disturbance.coulomb_speed2; }, imperfection},
+    InputDefinition{"plant.gravity_x", "m/s^2", any, [](T& p) -> double& { return p.disturbance.gravity_x; },
+                    imperfection},
+    InputDefinition{"plant.gravity_y", "m/s^2", any, [](T& p) -> double& { return p.disturbance.gravity_y; },
+                    imperfection},
     InputDefinition{"initial_state.q1", "m", any, [](T& p) -> double& { return p.start.q1; }},
     InputDefinition{"initial_state.q2", "rad", any, [](T& p) -> double& { return p.start.q2; }},
     InputDefinition{"initial_state.q1_dot", "m/s", any, [](T& p) -> double& { return p.start.q1_dot; }},
@@ -59,6 +72,23 @@ constexpr std::array<InputDefinition, input_count> definitions{{
                     [](T& p) -> double& { return p.controller.convergence.tolerance; }},
     InputDefinition{"controller.convergence.active_tolerance", "m, m/s", positive,
                     [](T& p) -> double& { return p.controller.convergence.active_tolerance; }},
+    InputDefinition{"actuator.gain", "1", positive, [](T& p) -> double& { return p.actuator.gain; }, imperfection},
+    InputDefinition{"actuator.max_force", "N", positive, [](T& p) -> double& { return p.actuator.max_force; },
+                    imperfection},
+    InputDefinition{"sensor.bias.q1", "m", any, [](T& p) -> double& { return p.sensor.bias.q1; }, imperfection},
+    InputDefinition{"sensor.bias.q2", "rad", any, [](T& p) -> double& { return p.sensor.bias.q2; }, imperfection},
+    InputDefinition{"sensor.bias.q1_dot", "m/s", any, [](T& p) -> double& { return p.sensor.bias.q1_dot; },
+                    imperfection},
+    InputDefinition{"sensor.bias.q2_dot", "rad/s", any, [](T& p) -> double& { return p.sensor.bias.q2_dot; },
+                    imperfection},
+    InputDefinition{"sensor.noise.q1", "m", non_negative, [](T& p) -> double& { return p.sensor.noise.q1; },
+                    imperfection},
+    InputDefinition{"sensor.noise.q2", "rad", non_negative, [](T& p) -> double& { return p.sensor.noise.q2; },
+                    imperfection},
+    InputDefinition{"sensor.noise.q1_dot", "m/s", non_negative, [](T& p) -> double& { return p.sensor.noise.q1_dot; },
+                    imperfection},
+    InputDefinition{"sensor.noise.q2_dot", "rad/s", non_negative, [](T& p) -> double& { return p.sensor.noise.q2_dot; },
+                    imperfection},
 }};
 static_assert(definitions.back().field != nullptr, "input_count says how many there are");
 

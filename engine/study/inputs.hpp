@@ -27,19 +27,23 @@ struct Range {
   [[nodiscard]] bool contains(const Support& support) const;
 };
 
-/// One number of `plant`, `initial_state` or `controller`: the numbers a study can vary.
+/// One number of `plant`, `initial_state`, `controller`, `actuator` or `sensor`: the numbers a study can vary.
 struct InputDefinition {
   std::string_view name;  ///< dotted, as in a spec: "plant.m1"
   std::string_view unit;  ///< "1" where it has none
   Range range;
   double& (*field)(TrialParameters&);  ///< where the number stands
+  /// An imperfection (engine/robot/README.md) is off by default and has no nominal value; the canonical spec of a study
+  /// with none of them mentions none.
+  bool is_imperfection{false};
 
-  /// The value of a spec that does not mention it (and whose nominal plant is the default one).
+  /// The value of a spec that does not mention it (and whose nominal plant is the default one). Outside the range, as
+  /// it is infinite, for actuator.max_force alone.
   [[nodiscard]] double default_value() const;
 };
 
 /// How many inputs there are.
-inline constexpr std::size_t input_count = 25;
+inline constexpr std::size_t input_count = 41;
 
 /// Every input, in the order of the spec's documentation.
 std::span<const InputDefinition> input_definitions();

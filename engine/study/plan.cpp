@@ -14,6 +14,7 @@
 #include "sampling/monte_carlo.hpp"
 #include "sampling/pick_freeze_design.hpp"
 #include "sampling/sobol.hpp"
+#include "sampling/stream.hpp"
 #include "study/inputs.hpp"
 
 namespace steerstat {
@@ -109,6 +110,7 @@ Plan::Plan(const Study& study)
     : base_(fixed_parameters(study)),
       draws_(study.sampling.method == SamplingMethod::grid ? 1 : study.sampling.trials),
       cells_(cells_of(study)),
+      seed_(study.sampling.seed),
       listed_(study.sampling.explicit_values),
       listed_columns_(study.sampling.explicit_names.size()) {
   require_known_inputs(study);
@@ -167,10 +169,19 @@ void Plan::draw(std::uint64_t index, std::span<double> values) const {
   for (std::size_t i = 0; i < sources_.size(); ++i) values[i] = value_of(sources_[i], point, draw, cell);
 }
 
-TrialParameters Plan::parameters_with(std::span<const double> values) const {
-  assert(values.size() == fields_.size());
+TrialParameters Plan::parameters_with(std::uint64_t index, std::span<const double> values) const {
+  assert(index < trials() && values.size() == fields_.size());
   TrialParameters parameters = base_;
   for (std::size_t i = 0; i < fields_.size(); ++i) fields_[i](parameters) = values[i];
+  Sensor& sensor = parameters.sensor;
+  if (sensor.noise != State<double>{}) {
+    // By draw, so that all cells share the noise too. In a pick-freeze design it is one more input, which only B
+    // varies.
+    const std::uint64_t draw = index / cells();
+    const auto block =
+        BlockStream(seed_, draw % variants_ == 1 ? "sensor.noise'" : "sensor.noise").at(draw / variants_);
+    sensor.noise_seed = (std::uint64_t{block[1]} << 32U) | block[0];
+  }
   return parameters;
 }
 
@@ -178,7 +189,7 @@ TrialParameters Plan::parameters(std::uint64_t index) const {
   std::array<double, input_count> values;  // NOLINT(cppcoreguidelines-pro-type-member-init): draw() fills what is read
   const std::span<double> varying(values.data(), fields_.size());
   draw(index, varying);
-  return parameters_with(varying);
+  return parameters_with(index, varying);
 }
 
 std::vector<Plan::SweptValue> Plan::sweep_values(std::uint64_t cell) const {

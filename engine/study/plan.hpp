@@ -46,8 +46,8 @@ class Plan {
   /// Writes the values of the varying inputs in trial `index`. @param values (varying) in the order of varying().
   void draw(std::uint64_t index, std::span<double> values) const;
 
-  /// The parameters of a trial whose varying inputs have these values. @param values (varying).
-  [[nodiscard]] TrialParameters parameters_with(std::span<const double> values) const;
+  /// The parameters of trial `index` where its varying inputs have these values. @param values (varying).
+  [[nodiscard]] TrialParameters parameters_with(std::uint64_t index, std::span<const double> values) const;
 
   /// Both in one: the parameters of trial `index`.
   [[nodiscard]] TrialParameters parameters(std::uint64_t index) const;
@@ -89,6 +89,7 @@ class Plan {
   Factorial cells_;
   std::shared_ptr<const Design> design_;
   std::size_t coordinates_;     // of the design
+  std::uint64_t seed_;          // of the study
   std::vector<double> listed_;  // (draws x listed_columns_), explicit trials only
   std::size_t listed_columns_{0};
 };

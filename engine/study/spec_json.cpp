@@ -55,7 +55,7 @@ class Decoder {
     if (const auto nominal = root_.find("nominal")) decode_nominal(*nominal);
     if (errors_.size() != before) mistaken_.emplace_back("nominal");
     study_.inputs = default_inputs(study_.nominal);
-    for (const std::string_view group : {"plant", "initial_state", "controller"}) {
+    for (const std::string_view group : {"plant", "initial_state", "controller", "actuator", "sensor"}) {
       if (const auto reader = root_.find(group)) decode_group(*reader, std::string(group));
     }
     if (const auto goal = root_.find("goal")) decode_goal(*goal);
@@ -80,9 +80,9 @@ class Decoder {
 
  private:
   void refuse_unknown_keys() {
-    static constexpr std::array<std::string_view, 13> known{
-        "name",       "nominal",  "plant", "initial_state", "goal",  "controller", "horizon",
-        "integrator", "sampling", "stop",  "retain",        "audit", "intervals"};
+    static constexpr std::array<std::string_view, 15> known{
+        "name",    "nominal",    "plant",    "initial_state", "goal",   "controller", "actuator", "sensor",
+        "horizon", "integrator", "sampling", "stop",          "retain", "audit",      "intervals"};
     std::vector<std::string_view> spoken_for(later_keys.begin(), later_keys.end());
     spoken_for.emplace_back("kind");
     root_.refuse_unknown_keys(known, spoken_for);
@@ -128,7 +128,7 @@ class Decoder {
     std::vector<std::string_view> known;
     TrialParameters parameters;
     for (const InputDefinition& definition : input_definitions()) {
-      if (!definition.name.starts_with("plant.")) continue;
+      if (!definition.name.starts_with("plant.") || definition.is_imperfection) continue;
       const std::string_view key = definition.name.substr(6);
       known.push_back(key);
       const auto member = reader.find(key);
@@ -175,7 +175,8 @@ class Decoder {
 
   void decode_value(const Reader& reader, const InputDefinition& definition) {
     std::optional<double> nominal;
-    if (definition.name.starts_with("plant.") && !is_mistaken(fmt::format("nominal.{}", definition.name.substr(6)))) {
+    if (definition.name.starts_with("plant.") && !definition.is_imperfection &&
+        !is_mistaken(fmt::format("nominal.{}", definition.name.substr(6)))) {
       TrialParameters parameters;
       parameters.plant = study_.nominal;
       nominal = definition.field(parameters);

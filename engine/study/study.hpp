@@ -27,7 +27,7 @@ struct Sweep {
 /// What a spec says of one number.
 using InputValue = std::variant<double, Distribution, Sweep>;
 
-/// One number of `plant`, `initial_state` or `controller`.
+/// One number of `plant`, `initial_state`, `controller`, `actuator` or `sensor`.
 struct Input {
   std::string name;  ///< dotted, as in a spec: "plant.m1", "controller.contraction.eta1"
   InputValue value;

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 
-#include "control/supervisor.hpp"
 #include "integrate/arrival.hpp"
 #include "integrate/closed_loop.hpp"
+#include "integrate/lockstep_engine.hpp"
+#include "trial/supervision.hpp"
 #include "trial/trial.hpp"
 
 namespace steerstat {
@@ -12,11 +13,23 @@ namespace steerstat {
 /// The closed loop of a trial.
 inline ClosedLoop<double> closed_loop_of(const TrialParameters& parameters) {
   const Controller::Alignment& alignment = parameters.controller.alignment;
-  return {constants_of(parameters.plant), constants_of(parameters.nominal), alignment.kp, alignment.kd,
-          parameters.goal.q1};
+  return {constants_of(parameters.plant),
+          constants_of(parameters.nominal),
+          alignment.kp,
+          alignment.kd,
+          parameters.goal.q1,
+          parameters.disturbance,
+          parameters.actuator};
 }
 
-/// What a trial reports that ended with `status` in state x at time t.
+/// Which lockstep engine a trial goes to. Its own parameters say so, and nothing else, lest its bits depend on others.
+inline LoopKind loop_kind_of(const TrialParameters& parameters) {
+  const bool ideal =
+      !is_present(parameters.disturbance) && parameters.actuator == Actuator<double>{} && parameters.sensor.is_exact();
+  return ideal ? LoopKind::ideal : LoopKind::imperfect;
+}
+
+/// What a trial reports that ended with `status` in state x at time t, whatever the supervisor read there.
 inline TrialOutcome outcome_of(Status status, double t, const State<double>& x, const Memory& memory,
                                const Goal& goal) {
   return {status, memory.cycles, memory.swings, memory.alignments, t, x, passive_error(x, goal), active_error(x, goal)};
@@ -27,19 +40,20 @@ inline TrialOutcome outcome_of(Status status, double t, const State<double>& x, 
 /// @param advance  (const Phase&, double t, const State<double>& x, double t_end) -> Arrival, the integrator
 template <class Advance>
 TrialOutcome run_course(const TrialParameters& parameters, Advance&& advance) {
-  const auto& [nominal, plant, start, goal, controller] = parameters;
+  const Goal& goal = parameters.goal;
   double t = 0.0;
-  State<double> x = start;
-  Memory memory;
+  State<double> x = parameters.start;
+  Supervision supervision;
   while (true) {
-    const Decision decision = decide(t, x, memory, controller, goal);
-    memory = decision.memory;
-    if (decision.outcome) return outcome_of(*decision.outcome, t, x, memory, goal);
-    const double t_end = std::min(t + decision.phase.duration, controller.horizon);
+    const Decision decision = supervision.decide(parameters, t, x);
+    if (decision.outcome) return outcome_of(*decision.outcome, t, x, supervision.memory(), goal);
+    const double t_end = std::min(t + decision.phase.duration, parameters.controller.horizon);
     const Arrival arrival = advance(decision.phase, t, x, t_end);
     t = arrival.t;
     x = arrival.state;
-    if (arrival.cause == Cause::failure) return outcome_of(Status::integrator_failed, t, x, memory, goal);
+    if (arrival.cause == Cause::failure) {
+      return outcome_of(Status::integrator_failed, t, x, supervision.memory(), goal);
+    }
   }
 }
 

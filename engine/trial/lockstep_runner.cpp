@@ -7,14 +7,14 @@
 
 namespace steerstat {
 
-LockstepRunner::LockstepRunner(double tolerance, InstructionSet set)
-    : engine_(make_lockstep_engine(tolerance, set)), seats_(static_cast<std::size_t>(engine_->lanes())) {}
+LockstepRunner::LockstepRunner(double tolerance, InstructionSet set, LoopKind kind)
+    : engine_(make_lockstep_engine(tolerance, set, kind)), seats_(static_cast<std::size_t>(engine_->lanes())) {}
 
 /// Seats the stream's next trial that has any phase to run. @return false when the stream is dry
 bool LockstepRunner::take_next(TrialStream& stream, int lane) {
   Seat& seat = seats_[static_cast<std::size_t>(lane)];
   while (stream.next(seat.index, seat.parameters)) {
-    seat.memory = Memory{};
+    seat.supervision = Supervision{};
     engine_->seat(lane, closed_loop_of(seat.parameters));
     if (carry_on(stream, lane, 0.0, seat.parameters.start)) return true;
   }
@@ -25,10 +25,9 @@ bool LockstepRunner::take_next(TrialStream& stream, int lane) {
 bool LockstepRunner::carry_on(TrialStream& stream, int lane, double t, const State<double>& x) {
   Seat& seat = seats_[static_cast<std::size_t>(lane)];
   const TrialParameters& parameters = seat.parameters;
-  const Decision decision = decide(t, x, seat.memory, parameters.controller, parameters.goal);
-  seat.memory = decision.memory;
+  const Decision decision = seat.supervision.decide(parameters, t, x);
   if (decision.outcome) {
-    stream.finished(seat.index, outcome_of(*decision.outcome, t, x, seat.memory, parameters.goal));
+    stream.finished(seat.index, outcome_of(*decision.outcome, t, x, seat.supervision.memory(), parameters.goal));
     return false;
   }
   engine_->start(lane, decision.phase, t, x, std::min(t + decision.phase.duration, parameters.controller.horizon));
@@ -50,8 +49,8 @@ void LockstepRunner::run(TrialStream& stream) {
       const Arrival arrival = engine_->arrival(lane);
       bool goes_on = false;
       if (arrival.cause == Cause::failure) {
-        stream.finished(seat.index, outcome_of(Status::integrator_failed, arrival.t, arrival.state, seat.memory,
-                                               seat.parameters.goal));
+        stream.finished(seat.index, outcome_of(Status::integrator_failed, arrival.t, arrival.state,
+                                               seat.supervision.memory(), seat.parameters.goal));
       } else {
         goes_on = carry_on(stream, lane, arrival.t, arrival.state);
       }

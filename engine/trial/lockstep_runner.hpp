@@ -3,9 +3,9 @@
 #include <memory>
 #include <vector>
 
-#include "control/supervisor.hpp"
 #include "integrate/lockstep_engine.hpp"
 #include "trial/runner.hpp"
+#include "trial/supervision.hpp"
 
 namespace steerstat {
 
@@ -13,7 +13,8 @@ namespace steerstat {
 /// thread-safe: one runner a thread.
 class LockstepRunner final : public TrialRunner {
  public:
-  LockstepRunner(double tolerance, InstructionSet set);
+  /// @param kind  of the trials it is given: an ideal runner would overlook imperfections
+  LockstepRunner(double tolerance, InstructionSet set, LoopKind kind = LoopKind::ideal);
 
   using TrialRunner::run;
   void run(TrialStream& stream) override;
@@ -25,7 +26,7 @@ class LockstepRunner final : public TrialRunner {
   struct Seat {
     std::uint64_t index{0};
     TrialParameters parameters{};
-    Memory memory{};
+    Supervision supervision{};
   };
 
   bool take_next(TrialStream& stream, int lane);

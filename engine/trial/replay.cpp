@@ -26,7 +26,7 @@ class PhaseSampler final : public StepObserver {
   void take(double t, const State<double>& x) {
     const double a = commanded_acceleration(loop_, phase_, t - start_, x);
     const auto [s, c] = sincos(x.q2);
-    const double tau = linearising_force(loop_.nominal, a, s, c, x.q2_dot);
+    const double tau = driving_force(loop_, a, x, s, c);
     samples_.push_back({t, x, a, tau, phase_.kind});
   }
 
@@ -68,7 +68,9 @@ Trajectory replay(const TrialParameters& parameters, const IntegratorChoice& cho
     case IntegratorChoice::Method::cvode:
       return record(parameters, CvodeIntegrator(choice.tolerance), interval);
     case IntegratorChoice::Method::lockstep:
-      return record(parameters, LockstepIntegrator(choice.tolerance), interval);
+      return record(parameters,
+                    LockstepIntegrator(choice.tolerance, best_instruction_set(), 0, loop_kind_of(parameters)),
+                    interval);
   }
   throw RunFailure("unknown integration method");
 }

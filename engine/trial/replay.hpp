@@ -13,7 +13,7 @@ struct TrajectorySample {
   double t;  ///< [s]
   State<double> state;
   double a;         ///< [m/s^2] acceleration the controller asks of the first joint
-  double tau;       ///< [N] force on the first joint
+  double tau;       ///< [N] force on the first joint, as the actuator applies it
   PhaseKind phase;  ///< the phase under way
 };
 

@@ -2,7 +2,7 @@
 
 #include "core/errors.hpp"
 #include "trial/cvode_runner.hpp"
-#include "trial/lockstep_runner.hpp"
+#include "trial/lockstep_router.hpp"
 
 namespace steerstat {
 namespace {
@@ -43,7 +43,7 @@ std::unique_ptr<TrialRunner> make_runner(const IntegratorChoice& integrator, Ins
     case IntegratorChoice::Method::cvode:
       return std::make_unique<CvodeRunner>(integrator.tolerance);
     case IntegratorChoice::Method::lockstep:
-      return std::make_unique<LockstepRunner>(integrator.tolerance, set);
+      return std::make_unique<LockstepRouter>(integrator.tolerance, set);
   }
   throw RunFailure("unknown integration method");
 }

@@ -8,7 +8,10 @@
 #include "control/goal.hpp"
 #include "core/state.hpp"
 #include "core/status.hpp"
+#include "robot/actuator.hpp"
+#include "robot/disturbance.hpp"
 #include "robot/plant.hpp"
+#include "trial/sensor.hpp"
 
 namespace steerstat {
 
@@ -18,7 +21,10 @@ struct TrialParameters {
   PlantParameters<double> plant{};    ///< what is true
   State<double> start{1.0, -0.7853981633974483, 0.0, 0.0};
   Goal goal{goal_at(0.0, 0.7853981633974483)};
-  Controller controller{};  ///< its `coupling` is that of `nominal`
+  Controller controller{};            ///< its `coupling` is that of `nominal`
+  Disturbance<double> disturbance{};  ///< forces that the controller knows nothing of
+  Actuator<double> actuator{};
+  Sensor sensor{};
 };
 
 /// What a trial has where a quantity does not exist in it.

@@ -100,6 +100,13 @@ TEST_P(EveryPack, NarrowingRoundsToNearestAndKeepsTheLanesInOrder) {
   }
 }
 
+TEST_P(EveryPack, SquareRootIsTheCorrectlyRoundedOne) {
+  std::vector<double> in;
+  for (int k = 0; k < 1600; ++k) in.push_back((1.5 + std::sin(k)) * std::pow(10.0, k % 600 - 300));
+  const std::vector<double> out = evaluated(GetParam(), PackFunction::square_root, in);
+  for (std::size_t i = 0; i < in.size(); ++i) ASSERT_EQ(out[i], std::sqrt(in[i])) << in[i];
+}
+
 INSTANTIATE_TEST_SUITE_P(Packs, EveryPack, ::testing::ValuesIn(supported_sets()),
                          [](const auto& set) { return std::string(name_of(set.param)); });
 

@@ -15,6 +15,7 @@ void evaluate_packs(int function, const double* in, double* out, std::size_t cou
     if (function == 2) y = coarse_log2(x);
     if (function == 3) y = coarse_exp2(x);
     if (function == 4) y = widen(narrow(x));
+    if (function == 5) y = sqrt(x);
     store(row, y);
     std::memcpy(out + i, row, sizeof row);
   }

@@ -4,12 +4,14 @@
 
 #include <limits>
 
+#include "imperfection_suite.hpp"
 #include "integrator_suite.hpp"
 
 namespace steerstat::testing {
 
 INSTANTIATE_TYPED_TEST_SUITE_P(Cvode, IntegratorMotion, CvodeIntegrator);
 INSTANTIATE_TYPED_TEST_SUITE_P(Cvode, IntegratorGuards, CvodeIntegrator);
+INSTANTIATE_TYPED_TEST_SUITE_P(Cvode, IntegratorImperfections, CvodeIntegrator);
 
 namespace {
 

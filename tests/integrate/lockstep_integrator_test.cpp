@@ -6,6 +6,7 @@
 
 #include "core/errors.hpp"
 
+#include "imperfection_suite.hpp"
 #include "integrator_suite.hpp"
 
 namespace steerstat::testing {
@@ -19,18 +20,20 @@ std::vector<InstructionSet> supported_sets() {
   return sets;
 }
 
-/// The lockstep integrator on every lane of every instruction set of this machine, which must all agree to the bit.
+/// A lockstep engine on every lane of every instruction set of this machine, which must all agree to the bit.
+template <LoopKind kind>
 class EveryLane {
  public:
   explicit EveryLane(double tolerance) : tolerance_(tolerance) {}
 
   Arrival advance(const ClosedLoop<double>& loop, const Phase& phase, double t, const State<double>& x, double t_end,
                   StepObserver* observer = nullptr) const {
-    const Arrival first = LockstepIntegrator(tolerance_).advance(loop, phase, t, x, t_end, observer);
+    const Arrival first =
+        LockstepIntegrator(tolerance_, best_instruction_set(), 0, kind).advance(loop, phase, t, x, t_end, observer);
     for (const InstructionSet set : supported_sets()) {
-      const int lanes = make_lockstep_engine(tolerance_, set)->lanes();
+      const int lanes = make_lockstep_engine(tolerance_, set, kind)->lanes();
       for (int lane = 0; lane < lanes; ++lane) {
-        const Arrival other = LockstepIntegrator(tolerance_, set, lane).advance(loop, phase, t, x, t_end);
+        const Arrival other = LockstepIntegrator(tolerance_, set, lane, kind).advance(loop, phase, t, x, t_end);
         EXPECT_EQ(bits_of(other), bits_of(first)) << name_of(set) << " lane " << lane;
         EXPECT_EQ(other.cause, first.cause);
       }
@@ -42,10 +45,16 @@ class EveryLane {
   double tolerance_;
 };
 
+using Ideal = EveryLane<LoopKind::ideal>;
+using Imperfect = EveryLane<LoopKind::imperfect>;
+
 }  // namespace
 
-INSTANTIATE_TYPED_TEST_SUITE_P(Lockstep, IntegratorMotion, EveryLane);
-INSTANTIATE_TYPED_TEST_SUITE_P(Lockstep, IntegratorGuards, EveryLane);
+INSTANTIATE_TYPED_TEST_SUITE_P(Lockstep, IntegratorMotion, Ideal);
+INSTANTIATE_TYPED_TEST_SUITE_P(Lockstep, IntegratorGuards, Ideal);
+INSTANTIATE_TYPED_TEST_SUITE_P(ImperfectLockstep, IntegratorMotion, Imperfect);
+INSTANTIATE_TYPED_TEST_SUITE_P(ImperfectLockstep, IntegratorGuards, Imperfect);
+INSTANTIATE_TYPED_TEST_SUITE_P(ImperfectLockstep, IntegratorImperfections, Imperfect);
 
 namespace {
 

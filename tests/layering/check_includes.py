@@ -18,7 +18,7 @@ ROOMS = {
     "integrate": {"core", "robot", "control"},
     "sampling": {"core"},
     "statistics": {"core"},
-    "trial": {"core", "robot", "control", "integrate"},
+    "trial": {"core", "robot", "control", "integrate", "sampling"},
     "study": {"core", "robot", "control", "sampling", "statistics", "trial"},
     "store": {"core", "robot", "control", "sampling", "trial", "study"},
     "report": {"core", "robot", "control", "sampling", "statistics", "trial", "study"},

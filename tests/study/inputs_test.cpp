@@ -45,6 +45,22 @@ TEST(Inputs, DefaultsAreThoseOfTheControllersDefinition) {
   EXPECT_EQ(value("controller.convergence.active_tolerance"), 0.02);
 }
 
+TEST(Inputs, ImperfectionsAreOffByDefault) {
+  const std::set<std::string_view> on{"plant.coulomb_speed1", "plant.coulomb_speed2", "actuator.gain",
+                                      "actuator.max_force"};
+  std::size_t imperfections = 0;
+  for (const InputDefinition& definition : input_definitions()) {
+    if (!definition.is_imperfection) continue;
+    ++imperfections;
+    EXPECT_EQ(definition.default_value() != 0.0, on.contains(definition.name)) << definition.name;
+  }
+  EXPECT_EQ(imperfections, 16U);
+  EXPECT_EQ(find_input("plant.coulomb_speed1")->default_value(), 1e-3);
+  EXPECT_EQ(find_input("plant.coulomb_speed2")->default_value(), 1e-3);
+  EXPECT_EQ(find_input("actuator.gain")->default_value(), 1.0);
+  EXPECT_EQ(find_input("actuator.max_force")->default_value(), INFINITY);
+}
+
 TEST(Inputs, EveryInputHasItsOwnNameAndPlace) {
   std::set<std::string_view> names;
   std::set<double*> places;
@@ -53,7 +69,8 @@ TEST(Inputs, EveryInputHasItsOwnNameAndPlace) {
     names.insert(definition.name);
     places.insert(&definition.field(parameters));
     EXPECT_FALSE(definition.unit.empty()) << definition.name;
-    EXPECT_TRUE(definition.range.contains(definition.default_value())) << definition.name;
+    const bool limits = definition.name != "actuator.max_force";  // no limit is no number
+    EXPECT_EQ(definition.range.contains(definition.default_value()), limits) << definition.name;
   }
   EXPECT_EQ(names.size(), input_count);
   EXPECT_EQ(places.size(), input_count);

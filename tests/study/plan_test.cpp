@@ -217,7 +217,7 @@ TEST(Plan, ParametersAreThoseOfTheDrawnValues) {
       "sampling": {"trials": 3}})");
   for (std::uint64_t i = 0; i < plan.trials(); ++i) {
     const TrialParameters whole = plan.parameters(i);
-    const TrialParameters parts = plan.parameters_with(values_of(plan, i));
+    const TrialParameters parts = plan.parameters_with(i, values_of(plan, i));
     EXPECT_EQ(whole.plant, parts.plant);
     EXPECT_EQ(whole.start, parts.start);
     EXPECT_EQ(whole.controller, parts.controller);
@@ -237,6 +237,10 @@ TEST(Plan, EveryInputReachesItsOwnField) {
     EXPECT_EQ(got.plant, expected.plant) << definition.name;
     EXPECT_EQ(got.start, expected.start) << definition.name;
     EXPECT_EQ(got.controller, expected.controller) << definition.name;
+    EXPECT_EQ(got.disturbance, expected.disturbance) << definition.name;
+    EXPECT_EQ(got.actuator, expected.actuator) << definition.name;
+    EXPECT_EQ(got.sensor.bias, expected.sensor.bias) << definition.name;
+    EXPECT_EQ(got.sensor.noise, expected.sensor.noise) << definition.name;
   }
 }
 
@@ -268,6 +272,38 @@ TEST(Plan, EveryTrialOfAnotherMethodIsIndependent) {
       "sampling": {"trials": 4}})");
   EXPECT_EQ(plan.variants(), 1U);
   for (std::uint64_t index = 0; index < plan.trials(); ++index) EXPECT_TRUE(plan.is_independent(index));
+}
+
+TEST(Plan, NoiseIsTheDrawsOwnAndCellsShareIt) {
+  const std::string noisy = R"({"sensor": {"noise": {"q2": 0.001}}, "plant": {"f1": {"sweep": [0, 0.1]}},
+      "sampling": {"trials": 50, "seed": )";
+  const Plan plan = plan_of(noisy + "3}}");
+  std::set<std::uint64_t> seeds;
+  for (std::uint64_t draw = 0; draw < 50; ++draw) {
+    const TrialParameters trial = plan.parameters(2 * draw);
+    EXPECT_EQ(trial.sensor, plan.parameters(2 * draw + 1).sensor);
+    EXPECT_EQ(trial.sensor, plan.parameters_with(2 * draw, values_of(plan, 2 * draw)).sensor);
+    seeds.insert(trial.sensor.noise_seed);
+  }
+  EXPECT_EQ(seeds.size(), 50U);
+  EXPECT_NE(plan_of(noisy + "4}}").parameters(0).sensor.noise_seed, plan.parameters(0).sensor.noise_seed);
+  EXPECT_EQ(plan_of("{}").parameters(0).sensor, Sensor{}) << "without noise there is nothing to seed";
+}
+
+// Whatever else varies, the noise is one more input that is not varied: B has its own, and all others A's.
+TEST(Plan, NoiseIsFrozenWhereSobolIndicesFreezeIt) {
+  const Plan plan = plan_of(R"({"plant": {"m1": {"uniform": [0.8, 1.2]}, "f2": {"uniform": [0, 0.05]}},
+      "sensor": {"noise": {"q2": 0.001}}, "sampling": {"method": "sobol_indices", "trials": 5}})");
+  ASSERT_EQ(plan.variants(), 4U);
+  std::set<std::uint64_t> seeds;
+  for (std::uint64_t row = 0; row < 5; ++row) {
+    const auto seed = [&](std::uint64_t variant) { return plan.parameters(4 * row + variant).sensor.noise_seed; };
+    EXPECT_NE(seed(1), seed(0));
+    EXPECT_EQ(seed(2), seed(0));
+    EXPECT_EQ(seed(3), seed(0));
+    seeds.insert({seed(0), seed(1)});
+  }
+  EXPECT_EQ(seeds.size(), 10U);
 }
 
 TEST(Plan, RefusesAStudyThatNoSpecGives) {

@@ -95,7 +95,9 @@ class RunStudyOnAnEngine : public testing::TestWithParam<IntegratorChoice::Metho
 
 TEST_P(RunStudyOnAnEngine, OutcomesAreTheSameBitsOnOneTwoAndThreeThreads) {
   Study study = study_of(R"({
-      "plant": {"m1": {"uniform": [0.8, 1.2]}, "m2": {"uniform": [0.8, 1.2]}, "f2": {"uniform": [0, 0.05]}},
+      "plant": {"m1": {"uniform": [0.8, 1.2]}, "m2": {"uniform": [0.8, 1.2]}, "f2": {"uniform": [0, 0.05]},
+                "coulomb1": {"discrete": {"values": [0, 0.001], "weights": [1, 1]}}},
+      "sensor": {"noise": {"q1": {"discrete": {"values": [0, 0.0001], "weights": [1, 1]}}}},
       "initial_state": {"q1": {"uniform": [-1, 1]}, "q2": {"uniform": [-3.1, 3.1]}},
       "horizon": 60, "sampling": {"trials": 1}, "audit": {"trials": 0}})");
   study.integrator.method = GetParam();

@@ -159,8 +159,8 @@ TEST(DecodeStudy, IntegersAreTakenExactlyOrNotAtAll) {
 
 TEST(DecodeStudy, MinusZeroIsZero) {
   const Study study = study_of(R"({"initial_state": {"q1": -0.0}})");
-  EXPECT_FALSE(std::signbit(std::get<double>(study.inputs[6].value)));
-  EXPECT_EQ(study.inputs[6].name, "initial_state.q1");
+  EXPECT_FALSE(std::signbit(std::get<double>(study.inputs[12].value)));
+  EXPECT_EQ(study.inputs[12].name, "initial_state.q1");
 }
 
 TEST(DecodeStudy, ARuleOfTwoNumbersIsNotCheckedWhenOneIsMistaken) {
@@ -193,6 +193,19 @@ TEST(CanonicalSpec, LeavesOutIntervalsThatAreTheDefault) {
               ::testing::HasSubstr(R"("intervals":{"level":0.9})"));
 }
 
+TEST(CanonicalSpec, LeavesOutImperfectionsThatAreOffAndFillsInAllOthersOnceOneIsOn) {
+  EXPECT_EQ(canonical_spec(study_of(R"({"plant": {"coulomb1": 0, "coulomb_speed1": 0.001, "gravity_y": 0},
+      "actuator": {"gain": 1}, "sensor": {"bias": {"q1": 0}, "noise": {}}})")),
+            canonical_empty_spec);
+  const std::string tilted = canonical_spec(study_of(R"({"plant": {"gravity_y": 0.5}})"));
+  EXPECT_THAT(tilted, HasSubstr(R"({"actuator":{"gain":1},"audit")"));
+  EXPECT_THAT(tilted, HasSubstr(R"("coulomb1":0,"coulomb2":0,"coulomb_speed1":0.001,"coulomb_speed2":0.001)"));
+  EXPECT_THAT(tilted, HasSubstr(R"("gravity_x":0,"gravity_y":0.5)"));
+  EXPECT_THAT(tilted, HasSubstr(R"("sensor":{"bias":{"q1":0,"q1_dot":0,"q2":0,"q2_dot":0},"noise":{"q1":0,)"));
+  EXPECT_THAT(canonical_spec(study_of(R"({"actuator": {"max_force": 20}})")),
+              HasSubstr(R"({"actuator":{"gain":1,"max_force":20},"audit")"));
+}
+
 TEST(CanonicalSpec, DoesNotDependOnHowTheSpecWasWritten) {
   EXPECT_EQ(canonical_spec(study_of(R"({"plant": {"m1": 1.50, "m2": 1e0}, "horizon": 3e2})")),
             canonical_spec(study_of(R"({ "horizon":300.0, "plant":{"m2":1,"m1":15e-1} })")));
@@ -201,8 +214,10 @@ TEST(CanonicalSpec, DoesNotDependOnHowTheSpecWasWritten) {
 TEST(CanonicalSpec, NumbersComeBackToTheSameBits) {
   for (const double x : {0.1, 1.0 / 3.0, 5e-324, 1.7976931348623157e308, 123456789012345680.0, -2.5e-7}) {
     Study study = study_of("{}");
-    study.inputs[6].value = x;
-    EXPECT_EQ(std::get<double>(study_of(canonical_spec(study)).inputs[6].value), x);
+    constexpr std::size_t q1 = 12;
+    ASSERT_EQ(study.inputs[q1].name, "initial_state.q1");
+    study.inputs[q1].value = x;
+    EXPECT_EQ(std::get<double>(study_of(canonical_spec(study)).inputs[q1].value), x);
   }
 }
 

@@ -1,0 +1,389 @@
+// The lockstep engine for trials with imperfections on one instruction set. Included once by a source compiled for it,
+// after the lanes; see core/instruction_set.hpp.
+
+namespace steerstat::STEERSTAT_ISA {
+
+/// The guard of align on what is read: sqrt(E^2 + (V + read_V)^2) - radius.
+struct ReadAlignGuard {
+  static constexpr int joint = 0;
+  double radius;
+  double read_V;
+
+  [[nodiscard]] Evidence judge(const Samples& s, double slack, double width) const {
+    Evidence evidence;
+    for (int i = 0; i < Samples::parts; i += Pack::lanes) {
+      const Pack E0 = load(s.before.position + i), V0 = load(s.before.velocity + i) + Pack(read_V);
+      const Pack E1 = load(s.after.position + i), V1 = load(s.after.velocity + i) + Pack(read_V);
+      const Pack limit(radius * radius);
+      const Mask out0 = limit < fma(E0, E0, V0 * V0);
+      const Mask out1 = limit < fma(E1, E1, V1 * V1);
+      // The position's second derivative is the acceleration, at most |V1 - V0| / width and what the velocity bends.
+      const Pack position_slack = (abs(V1 - V0) + Pack(8.0 * slack)) * Pack(width * 0.125);
+      const Mask quiet = chord_avoids(E0, V0, E1, V1, Pack(radius + slack) + position_slack);
+      evidence.crossing |= bits(out0 & !out1) << i;
+      evidence.uncertain |= bits(out0 & out1 & !quiet) << i;
+    }
+    return evidence;
+  }
+  [[nodiscard]] double value(double position, double velocity) const {
+    velocity += read_V;
+    return std::fma(position, position, velocity * velocity) - radius * radius;
+  }
+  [[nodiscard]] double rate(const Motion& m) const {
+    return 2.0 * (m.velocity * m.position + (m.velocity + read_V) * m.acceleration);
+  }
+  [[nodiscard]] double curvature(const Motion& m) const {
+    return 2.0 *
+           (m.velocity * m.velocity + m.acceleration * (m.position + m.acceleration) + (m.velocity + read_V) * m.jerk);
+  }
+};
+
+/// Trials with any imperfection of engine/robot/README.md but the sensor's, which phases carry. Where the actuator's
+/// limit is reached the loop has a kink: steps end there.
+class ImperfectKernel final : public LockstepEngine {
+ public:
+  explicit ImperfectKernel(double tolerance) : log2_tolerance_(natural_log(margin * tolerance) * elementary::log2_e) {
+    for (int lane = 0; lane < lanes(); ++lane) vacate(lane);
+  }
+
+  [[nodiscard]] InstructionSet instruction_set() const override { return InstructionSet::STEERSTAT_ISA; }
+  [[nodiscard]] int lanes() const override { return packs * Pack::lanes; }
+
+  void seat(int lane, const ClosedLoop<double>& loop) override {
+    const PlantConstants<double>& plant = loop.plant;
+    const PlantConstants<double>& nominal = loop.nominal;
+    const Disturbance<double>& disturbance = loop.disturbance;
+    const double K = plant.moment / plant.inertia;
+    const double gain = loop.actuator.gain;
+    trials_[lane].K = K;
+    trials_[lane].loop = loop;
+    const auto [lanes, i] = place(lane);
+    ImperfectConstants<Row>& constants = lanes.loop;
+    constants.slip[i] = plant.f2 / plant.inertia;
+    constants.damping[i] = plant.f1 / plant.mass;
+    constants.pull[i] = K * plant.moment / plant.mass;
+    constants.drive[i] = gain * nominal.mass / plant.mass;
+    constants.belief[i] = K * gain * nominal.moment / plant.mass;
+    constants.belief_b[i] = gain * nominal.moment * nominal.moment / nominal.inertia / plant.mass;
+    constants.limit[i] = std::abs(K) * loop.actuator.max_force / plant.mass;
+    constants.fall[i] = K * disturbance.gravity_x;
+    constants.tilt[i] = K * disturbance.gravity_y;
+    constants.rub1[i] = std::abs(K) * disturbance.coulomb1 / plant.mass;
+    constants.rub2[i] = disturbance.coulomb2 / plant.inertia;
+    constants.sharp1[i] = 1.0 / (std::abs(K) * disturbance.coulomb_speed1);
+    constants.sharp2[i] = 1.0 / disturbance.coulomb_speed2;
+    lanes.scale[i] = 1.0 / std::abs(K);
+    const bool rubs = disturbance.coulomb1 > 0.0 || disturbance.coulomb2 > 0.0;
+    seated_ |= bit(lane);
+    rubbing_ = (rubbing_ & ~bit(lane)) | (rubs ? bit(lane) : 0);
+  }
+
+  void start(int lane, const Phase& phase, double t, const State<double>& x, double t_end) override {
+    Trial& trial = trials_[lane];
+    trial.t_start = t;
+    trial.t_end = t_end;
+    trial.cause = Cause::time;
+    trial.corrected_at = -1.0;
+    trial.goal = trial.loop.q1_goal - phase.q1_offset;
+    const double K = trial.K;
+    const double E = K * (x.q1 - trial.goal);
+    const double V = K * x.q1_dot;
+    const double read_V = K * phase.q1_dot_offset;
+    const auto [lanes, i] = place(lane);
+    lanes.E[i] = E;
+    lanes.V[i] = V;
+    lanes.q2[i] = x.q2;
+    lanes.w[i] = x.q2_dot;
+    lanes.t[i] = 0.0;
+    lanes.t_end[i] = t_end - t;
+    lanes.mode[i] = undecided;
+    set_unit(lane, phase.kind == PhaseKind::drift ? 2.0 : 0.25);  // soon corrected by the steps themselves
+
+    const bool aligning = phase.kind == PhaseKind::align;
+    lanes.kp[i] = aligning ? -trial.loop.kp : 0.0;
+    lanes.kd[i] = aligning ? -trial.loop.kd : 0.0;
+    lanes.read_V[i] = read_V;
+    const bool cycling = phase.kind == PhaseKind::contraction || phase.kind == PhaseKind::swing;
+    const double rate = cycling ? 1.0 / phase.duration : 0.0;
+    double factor = cycling ? K * phase.amplitude * rate * rate : 0.0;  // (11)
+    for (std::size_t k = 0; k < 5; ++k) {
+      factor *= rate;
+      lanes.cycle[k][i] = cycle_coefficients[k] * factor;
+    }
+    const double radius = phase.active_tolerance < 0.0 ? -1.0 : std::abs(K) * phase.active_tolerance;
+    lanes.radius[i] = radius;
+    lanes.q2_low[i] = phase.q2_low;
+    lanes.q2_high[i] = phase.q2_high;
+    lanes.direction[i] = phase.direction;
+    lanes.speed_floor[i] = phase.speed_floor;
+    const bool armed = (radius < 0.0 || E * E + (V + read_V) * (V + read_V) > radius * radius) && x.q2 > phase.q2_low &&
+                       x.q2 < phase.q2_high && phase.direction * x.q2_dot > phase.speed_floor;
+    armed_ = (armed_ & ~bit(lane)) | (armed ? bit(lane) : 0);
+  }
+
+  void vacate(int lane) override {
+    const PlantParameters<double> any;
+    seat(lane, {constants_of(any), constants_of(any), 0.0, 0.0, 0.0, {}, {}});
+    start(lane, Phase{PhaseKind::drift}, 0.0, State<double>{}, 1.0);
+    seated_ &= ~bit(lane);
+  }
+
+  std::uint64_t step() override {
+    std::uint64_t ended = 0, watch = 0, unsound = 0, stalled = 0, force = 0;
+    for (int pack = 0; pack < packs; ++pack) {
+      const bool rubs = (rubbing_ >> (pack * Pack::lanes) & (~std::uint64_t{0} >> (64 - Pack::lanes))) != 0;
+      const ImperfectReport report =
+          rubs ? advance<true>(packs_[pack], log2_tolerance_) : advance<false>(packs_[pack], log2_tolerance_);
+      const auto at_its_place = [&](std::uint32_t bits) { return std::uint64_t{bits} << (pack * Pack::lanes); };
+      ended |= at_its_place(report.step.reached_end);
+      watch |= at_its_place(report.step.watch);
+      unsound |= at_its_place(report.step.unsound);
+      stalled |= at_its_place(report.step.stalled);
+      force |= at_its_place(report.force);
+    }
+    counters_.steps += packs;
+    counters_.lane_slots += static_cast<std::uint64_t>(lanes());
+    counters_.lane_steps += static_cast<std::uint64_t>(std::popcount(seated_));
+    for_each_lane(ended & ~seated_, [&](int lane) { set_time(lane, 0.0); });
+
+    ended &= seated_ & ~unsound;
+    for_each_lane(stalled & seated_ & ~unsound, [&](int lane) {
+      trials_[lane].cause = Cause::failure;
+      ended |= bit(lane);
+    });
+    for_each_lane((watch | force) & seated_ & ~unsound & ~stalled, [&](int lane) {
+      switch (search(lane, (watch & bit(lane)) != 0, (force & bit(lane)) != 0)) {
+        case Found::nothing:
+          break;
+        case Found::guard:
+          ended |= bit(lane);
+          break;
+        case Found::kink:
+          ended &= ~bit(lane);
+          break;
+      }
+    });
+    armed_ |= ~watch;  // every guard of these was positive throughout
+    for_each_lane(unsound & seated_, [&](int lane) {
+      if (!retry(lane)) ended |= bit(lane);
+    });
+    counters_.arrivals += static_cast<std::uint64_t>(std::popcount(ended));
+    return ended;
+  }
+
+  [[nodiscard]] Arrival arrival(int lane) const override {
+    const Trial& trial = trials_[lane];
+    const auto [lanes, i] = place(lane);
+    const double t = lanes.t[i];
+    return {t == lanes.t_end[i] ? trial.t_end : trial.t_start + t,
+            {trial.goal + lanes.E[i] / trial.K, lanes.q2[i], lanes.V[i] / trial.K, lanes.w[i]},
+            trial.cause};
+  }
+
+  [[nodiscard]] State<double> dense_output(int lane, double t) const override {
+    const Trial& trial = trials_[lane];
+    const auto [lanes, i] = place(lane);
+    const double dt = t - (trial.t_start + lanes.t_start[i]);
+    LaneMotion::Moment moment;
+    motion_of(lanes, i).at(dt, moment);
+    const auto& [first, second] = moment.joint;
+    return {trial.goal + first.position / trial.K, second.position, first.velocity / trial.K, second.velocity};
+  }
+
+ private:
+  static constexpr double margin = 0.125;  // as without imperfections
+  static constexpr int packs = 1;          // the series' sums keep the processor busy by themselves
+
+  struct Trial {
+    ClosedLoop<double> loop;
+    double K;
+    double goal;  // where align sees it
+    double t_start, t_end;
+    double corrected_at;  // when in the phase the force's mode was last found to be wrong; negative: never
+    Cause cause;
+  };
+
+  enum class Found { nothing, guard, kink };
+
+  template <class L>
+  struct Place {
+    L& lanes;
+    int column;
+  };
+  Place<ImperfectLanes> place(int lane) { return {packs_[lane / Pack::lanes], lane % Pack::lanes}; }
+  [[nodiscard]] Place<const ImperfectLanes> place(int lane) const {
+    return {packs_[lane / Pack::lanes], lane % Pack::lanes};
+  }
+
+  static std::uint64_t bit(int lane) { return std::uint64_t{1} << lane; }
+
+  template <class Body>
+  static void for_each_lane(std::uint64_t lanes, Body&& body) {
+    for (; lanes != 0; lanes &= lanes - 1) body(std::countr_zero(lanes));
+  }
+
+  void set_time(int lane, double t) {
+    const auto [lanes, i] = place(lane);
+    lanes.t[i] = t;
+  }
+
+  void set_unit(int lane, double unit) {
+    const auto [lanes, i] = place(lane);
+    lanes.unit[i] = unit;
+    lanes.rate[i] = 1.0 / unit;
+  }
+
+  static double coefficient(const Pack& x, int i) {
+    double value = 0.0;
+    std::memcpy(&value, reinterpret_cast<const char*>(&x) + static_cast<std::size_t>(i) * sizeof(double),
+                sizeof(double));
+    return value;
+  }
+
+  static LaneMotion motion_of(const ImperfectLanes& lanes, int i) {
+    LaneMotion motion;
+    JointSeries &first = motion.joint[0], &second = motion.joint[1];
+    for (int k = 0; k <= order; ++k) {
+      first.x[k] = coefficient(lanes.series.V[k], i);
+      second.x[k] = coefficient(lanes.series.w[k], i);
+    }
+    first.rate = second.rate = lanes.rate_start[i];
+    first.start = lanes.E_start[i];
+    second.start = lanes.q2_start[i];
+    return motion;
+  }
+
+  /// The force asked for over the last step, in the place of both velocities.
+  static LaneMotion force_asked(const ImperfectLanes& lanes, int i) {
+    LaneMotion motion;
+    JointSeries& force = motion.joint[DriftGuard::joint];
+    for (int k = 0; k < order; ++k) force.x[k] = coefficient(lanes.series.D[k], i) * lanes.rate_start[i];
+    force.x[order] = 0.0;
+    force.rate = lanes.rate_start[i];
+    force.start = 0.0;
+    motion.joint[1 - DriftGuard::joint] = force;
+    return motion;
+  }
+
+  /// Where a guard first fires within a step of size h.
+  template <class Guard>
+  static Crossing locate(const Guard& guard, const LaneMotion& motion, double h, double bend, bool armed) {
+    Samples samples;
+    sample(motion.joint[Guard::joint], 0.0, h, samples);
+    Crossing crossing;
+    first_crossing(guard, motion, samples, 0.0, h, bend, armed, 0, crossing);
+    return crossing;
+  }
+
+  /// Where a guard of the lane's phase first fires within its last step.
+  [[nodiscard]] Crossing locate_guard(int lane) const {
+    const auto [lanes, i] = place(lane);
+    const double h = lanes.h[i];
+    const double bend = lanes.bend[i] / (h * h);
+    const bool armed = (armed_ & bit(lane)) != 0;
+    const LaneMotion motion = motion_of(lanes, i);
+    if (lanes.radius[i] >= 0.0) {
+      return locate(ReadAlignGuard{lanes.radius[i], lanes.read_V[i]}, motion, h, bend, armed);
+    }
+    Crossing first;
+    const auto consider = [&](const DriftGuard& guard) {
+      if (!(std::abs(guard.bound) < Phase::unbounded)) return;
+      const Crossing crossing = locate(guard, motion, h, bend, armed);
+      if (crossing.t < first.t) first = crossing;
+    };
+    consider({false, 1.0, lanes.q2_low[i]});
+    consider({false, -1.0, -lanes.q2_high[i]});
+    consider({true, lanes.direction[i], lanes.speed_floor[i]});
+    return first;
+  }
+
+  /// When the force asked for first crosses the limit within a lane's last step, and the mode that it goes on in.
+  struct Kink {
+    double t;
+    double mode;
+    bool wrong;  ///< no crossing, but the step's end is on the other side: the step was in the wrong mode
+  };
+  [[nodiscard]] Kink locate_kink(int lane) const {
+    const auto [lanes, i] = place(lane);
+    const double h = lanes.h[i];
+    const double bend = lanes.force_bend[i] / (h * h);
+    const double limit = lanes.loop.limit[i];
+    const LaneMotion force = force_asked(lanes, i);
+    LaneMotion::Moment end;
+    force.at(h, end);
+    const double last = end.joint[DriftGuard::joint].velocity;
+    const double mode = lanes.mode[i];
+    if (mode != within_limits) {
+      const double t = locate(DriftGuard{true, mode, limit}, force, h, bend, false).t;
+      return {t, within_limits, t > h && mode * last < limit};
+    }
+    const double upper = locate(DriftGuard{true, -1.0, -limit}, force, h, bend, false).t;
+    const double lower = locate(DriftGuard{true, 1.0, -limit}, force, h, bend, false).t;
+    const double t = std::min(upper, lower);
+    const double side = t > h ? last : lower - upper;
+    return {t, side > 0.0 ? at_upper_limit : at_lower_limit, t > h && std::abs(last) > limit};
+  }
+
+  /// Looks for what may have happened to a lane within its last step, and puts it there.
+  Found search(int lane, bool watch, bool force) {
+    ++counters_.searches;
+    const auto [lanes, i] = place(lane);
+    const Crossing guard = watch ? locate_guard(lane) : Crossing{};
+    if (force) {
+      const Kink kink = locate_kink(lane);
+      if (kink.t < guard.t && kink.t <= lanes.h[i]) {
+        put(lane, kink.t);
+        lanes.mode[i] = kink.mode;
+        return Found::kink;
+      }
+      // Once at a time: where the force only touches the limit, rounding may call either mode wrong.
+      if (kink.wrong && trials_[lane].corrected_at != lanes.t_start[i]) {
+        trials_[lane].corrected_at = lanes.t_start[i];
+        put(lane, 0.0);
+        lanes.mode[i] = kink.mode;
+        return Found::kink;
+      }
+    }
+    if (!(guard.t <= lanes.h[i])) return Found::nothing;
+    put(lane, guard.t);
+    trials_[lane].cause = Cause::guard;
+    return Found::guard;
+  }
+
+  /// Puts a lane to t [s] after its last step's start.
+  void put(int lane, double t) {
+    const auto [lanes, i] = place(lane);
+    LaneMotion::Moment moment;
+    motion_of(lanes, i).at(t, moment);
+    const auto& [first, second] = moment.joint;
+    lanes.E[i] = first.position;
+    lanes.V[i] = first.velocity;
+    lanes.q2[i] = second.position;
+    lanes.w[i] = second.velocity;
+    lanes.t[i] = lanes.t_start[i] + t;
+  }
+
+  /// Takes back a step whose coefficients overflowed, for another in a thousandth of its unit.
+  /// @return false, with the lane's cause set, when that cannot be what is wrong
+  bool retry(int lane) {
+    const auto [lanes, i] = place(lane);
+    lanes.E[i] = lanes.E_start[i];
+    lanes.q2[i] = lanes.q2_start[i];
+    lanes.V[i] = coefficient(lanes.series.V[0], i) * lanes.rate_start[i];
+    lanes.w[i] = coefficient(lanes.series.w[0], i) * lanes.rate_start[i];
+    lanes.t[i] = lanes.t_start[i];
+    set_unit(lane, 0x1p-10 / lanes.rate_start[i]);
+    if (lanes.unit[i] > 0x1p-50) return true;
+    trials_[lane].cause = Cause::failure;
+    return false;
+  }
+
+  double log2_tolerance_;
+  std::uint64_t seated_{0};
+  std::uint64_t armed_{0};    ///< lanes whose guards have all been positive in this phase
+  std::uint64_t rubbing_{0};  ///< lanes with Coulomb friction
+  ImperfectLanes packs_[packs]{};
+  Trial trials_[packs * Pack::lanes]{};
+};
+
+}  // namespace steerstat::STEERSTAT_ISA
