@@ -28,8 +28,8 @@ unsigned percent(const Progress& progress) {
 std::vector<std::string> facts(const Progress& progress) {
   std::vector<std::string> facts{
       fmt::format("{} / {} trials", readable_count(progress.completed), readable_count(progress.requested))};
-  if (progress.completed == 0 || progress.elapsed < 0.1) return facts;
-  const double rate = static_cast<double>(progress.completed) / progress.elapsed;
+  if (progress.completed <= progress.earlier || progress.elapsed < 0.1) return facts;
+  const double rate = static_cast<double>(progress.completed - progress.earlier) / progress.elapsed;
   // Whole seconds: tenths that change with every redraw are noise.
   const double left = std::ceil(static_cast<double>(progress.requested - progress.completed) / rate);
   facts.push_back(readable_rate(rate) + "/s");

@@ -12,6 +12,7 @@
 
 #include "commands.hpp"
 #include "core/errors.hpp"
+#include "durable_run.hpp"
 #include "interruption.hpp"
 #include "output.hpp"
 #include "progress_display.hpp"
@@ -32,11 +33,15 @@ After the last trial some are computed again with SUNDIALS at a hundredth of the
 many agree: 16, or as many as the spec's "audit" asks for. The outcomes are the same bits with every --simd.
 
 The first interrupt (Ctrl-C, SIGTERM) finishes the trials in flight, writes what is done with "complete" false and
-exits 130; a second one ends at once.
+exits 130; a second one ends at once. Until the result is in place, finished trials are kept in the directory FILE.parts
+beside it, whatever happens to the process. --resume goes on from there, or from an incomplete FILE, and gives the same
+bits as a run that nothing interrupted; also with more "trials" in the spec than before. Where there is nothing to go on
+with, it begins at the beginning.
 
 Examples:
   steerstat run study.json
   steerstat run study.json -o result.h5 --summary summary.json
+  steerstat run study.json -o result.h5 --resume
   steerstat run study.json --summary - --no-progress | jq .success_rate
   make-study | steerstat run - -o result.h5)";
 
@@ -47,6 +52,7 @@ struct Request {
   unsigned threads{0};
   std::optional<std::string> simd;  ///< without it the best that this machine runs
   bool no_progress{false};
+  bool resume{false};
 
   [[nodiscard]] bool prints_json() const { return summary == "-"; }
   [[nodiscard]] bool writes_summary() const { return summary && !prints_json(); }
@@ -61,6 +67,10 @@ bool same_file(const std::string& a, const std::string& b) {
 /// Refuses outputs that would overwrite the spec or each other, and those that cannot be written, before any trial
 /// runs.
 void check_outputs(const Request& request) {
+  if (request.resume && !request.result) {
+    throw BadUsage(
+        "--resume: without -o no trials are kept to go on with; name the result file of the interrupted run");
+  }
   if (request.result == "-") {
     throw BadUsage("-o: a result file cannot go to standard output (HDF5 is not a stream); name a file");
   }
@@ -78,15 +88,16 @@ void check_outputs(const Request& request) {
   for (const std::string& output : outputs) require_writable(output);
 }
 
+/// @param durable  null where the trials are not kept
 StudyResult run_trials(const Study& study, const Request& request, InstructionSet simd,
-                       const Interruption& interruption) {
+                       const Interruption& interruption, DurableRun* durable) {
   ProgressDisplay display(request.no_progress ? ProgressStyle::none : progress_style(), interruption.token());
   RunOptions options;
   options.threads = request.threads;
   options.simd = simd;
   options.stop = interruption.token();
   options.on_progress = [&display](const Progress& progress) { display.show(progress); };
-  return run_study(study, options);
+  return durable != nullptr ? durable->run(options) : run_study(study, options);
 }
 
 /// Does one of several things of which each should be tried: a failure is told, not thrown.
@@ -104,9 +115,9 @@ bool attempt(const Action& action) {
 
 /// Writes what was asked for, the trials first: the most costly to lose. One full disk does not take the rest along.
 /// @return whether all of it was written
-bool write_outputs(const Request& request, const Study& study, const StudyResult& result) {
+bool write_outputs(const Request& request, const Study& study, const StudyResult& result, DurableRun* durable) {
   const Summary summary = summarise(study, result);
-  const bool kept = !request.result || attempt([&] { write_result(*request.result, study, result); });
+  const bool kept = durable == nullptr || attempt([&] { durable->keep(result); });
   const bool summarised =
       !request.writes_summary() || attempt([&] { write_text(*request.summary, summary_json(summary)); });
   const bool printed = attempt([&] {
@@ -135,8 +146,11 @@ ExitCode run(const Request& request) {
   const Study& study = std::get<Study>(spec);
   check_outputs(request);
   const Interruption interruption;  // to the end: an interrupt must not cost the outputs of a run that is over
-  const StudyResult result = run_trials(study, request, simd, interruption);
-  const bool written = write_outputs(request, study, result);
+  std::optional<DurableRun> durable;
+  if (request.result) durable.emplace(*request.result, study, request.resume);
+  DurableRun* const kept = durable ? &*durable : nullptr;
+  const StudyResult result = run_trials(study, request, simd, interruption, kept);
+  const bool written = write_outputs(request, study, result, kept);
   if (!result.complete) {
     tell(fmt::format("interrupted after {} of {} trials{}", readable_count(result.trials.index.size()),
                      readable_count(Plan(study).trials()), request.result ? "" : "; without -o they are not kept"));
@@ -171,6 +185,8 @@ void add_run(CLI::App& program, ExitCode& exit_code) {
       ->add_option("--simd", request->simd,
                    "Instruction set for lockstep: avx512, avx2 or portable; the best unless given")
       ->type_name("NAME");
+  command->add_flag("--resume", request->resume,
+                    "Go on with an interrupted run into the same -o, or extend it to more trials");
   command->add_flag("--no-progress", request->no_progress, "Do not show progress");
   command->footer(epilogue);
   command->callback([request, &exit_code] { exit_code = run(*request); });

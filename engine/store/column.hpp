@@ -20,6 +20,25 @@ void write_column(hid_t group, const std::string& name, std::span<const Number> 
   write_column(group, name, type_of(Number{}), values.data(), values.size(), units);
 }
 
+/// Writes what `value_of(row)` gives as a dataset.
+template <class Number, class ValueOf>
+void write_each(hid_t group, const std::string& name, std::size_t rows, const std::string& units,
+                const ValueOf& value_of) {
+  std::vector<Number> values(rows);
+  for (std::size_t row = 0; row < rows; ++row) values[row] = value_of(row);
+  write_column<Number>(group, name, values, units);
+}
+
+/// Writes the bytes that `value_of(row)` gives as an enumeration of `names`.
+template <class ValueOf>
+void write_names(hid_t group, const std::string& name, std::span<const std::string_view> names, std::size_t rows,
+                 const ValueOf& value_of) {
+  std::vector<std::uint8_t> values(rows);
+  for (std::size_t row = 0; row < rows; ++row) values[row] = static_cast<std::uint8_t>(value_of(row));
+  const Handle type = enumeration(names);
+  write_column(group, name, {type.id(), type.id()}, values.data(), rows, "1");
+}
+
 /// A dataset that was found to be what it should be: one-dimensional, of the type and the units asked for.
 class Column {
  public:

@@ -11,6 +11,7 @@
 namespace steerstat::layout {
 
 inline constexpr std::string_view filetype = "steerstat-study";
+inline constexpr std::string_view shard_filetype = "steerstat-shard";
 inline constexpr std::uint32_t format_version = 1;
 
 /// The attribute `simd` of a run that used no instruction set of lockstep's.

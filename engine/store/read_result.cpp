@@ -14,6 +14,7 @@
 #include "store/memory_file.hpp"
 #include "store/result_file.hpp"
 #include "store/seal.hpp"
+#include "store/trial_columns.hpp"
 #include "store/whole_file.hpp"
 #include "study/spec_json.hpp"
 
@@ -59,57 +60,12 @@ Study read_study(hid_t file) {
   return study;
 }
 
-std::vector<std::uint64_t> read_index(hid_t trials, const Plan& plan) {
-  const hdf5::Column column(trials, "index", hdf5::type_of(std::uint64_t{}), "1");
-  if (column.rows() > plan.trials()) {
-    throw Problem(fmt::format("it has {} rows for {} trials", column.rows(), plan.trials()));
-  }
-  std::vector<std::uint64_t> index(column.rows());
-  column.read(index.data());
-  if (std::adjacent_find(index.begin(), index.end(), std::greater_equal<>()) != index.end()) {
-    throw Problem("/trials/index does not rise");
-  }
-  if (!index.empty() && index.back() >= plan.trials()) {
-    throw Problem(fmt::format("/trials/index {} is beyond the last of {} trials", index.back(), plan.trials()));
-  }
-  return index;
-}
-
-/// @param place  the group's name, for messages
-std::vector<Status> read_statuses(hid_t group, std::string_view place, std::size_t rows) {
-  const hdf5::Handle type = hdf5::enumeration(status_names);
-  const hdf5::Column column(group, "status", {type.id(), type.id()}, "1");
-  if (column.rows() != rows) {
-    throw Problem(fmt::format("status has {} rows, {}/index {}", column.rows(), place, rows));
-  }
-  std::vector<std::uint8_t> values(rows);
-  column.read(values.data());
-  std::vector<Status> statuses;
-  statuses.reserve(rows);
-  for (std::size_t row = 0; row < rows; ++row) {
-    if (values[row] >= status_names.size()) {
-      throw Problem(fmt::format("{}/status {} in row {} is no outcome", place, values[row], row));
-    }
-    statuses.push_back(static_cast<Status>(values[row]));
-  }
-  return statuses;
-}
-
-/// The columns that follow from others: what they say must be what follows.
-void check_derived_columns(hid_t trials, const Plan& plan, const TrialTable& table) {
-  const std::size_t rows = table.index.size();
-  const auto cells = hdf5::read_column<std::uint64_t>(trials, "cell", "1", rows);
-  const auto settling = hdf5::read_column<double>(trials, "settling_time", "s", rows);
-  for (std::size_t row = 0; row < rows; ++row) {
-    if (cells[row] != plan.cell_of(table.index[row])) {
+/// @throws Problem where a trial is said to be in another cell than its own
+void check_cells(hid_t trials, const Plan& plan, std::span<const std::uint64_t> index) {
+  const auto cells = hdf5::read_column<std::uint64_t>(trials, "cell", "1", index.size());
+  for (std::size_t row = 0; row < index.size(); ++row) {
+    if (cells[row] != plan.cell_of(index[row])) {
       throw Problem(fmt::format("/trials/cell {} in row {} is not that of its trial", cells[row], row));
-    }
-    const double expected = table.outcomes[row].settling_time();
-    if (settling[row] != expected && !(std::isnan(settling[row]) && std::isnan(expected))) {
-      throw Problem(fmt::format("/trials/settling_time in row {} does not follow from status and end_time", row));
-    }
-    if (table.outcomes[row].status == Status::converged && !std::isfinite(expected)) {
-      throw Problem(fmt::format("/trials/end_time in row {} is not finite, yet the trial converged", row));
     }
   }
 }
@@ -117,17 +73,9 @@ void check_derived_columns(hid_t trials, const Plan& plan, const TrialTable& tab
 TrialTable read_trials(hid_t file, const Plan& plan) {
   const hdf5::Handle group = hdf5::open_group(file, "trials");
   TrialTable table;
-  table.index = read_index(group.id(), plan);
-  table.outcomes.resize(table.index.size());
-  const std::vector<Status> statuses = read_statuses(group.id(), "/trials", table.outcomes.size());
-  for (std::size_t row = 0; row < statuses.size(); ++row) table.outcomes[row].status = statuses[row];
-  const auto read_field = [&]<class Number>(const layout::OutcomeColumn<Number>& column) {
-    const auto values = hdf5::read_column<Number>(group.id(), column.name, column.units, table.outcomes.size());
-    for (std::size_t row = 0; row < values.size(); ++row) column.field(table.outcomes[row]) = values[row];
-  };
-  for (const auto& column : layout::real_columns) read_field(column);
-  for (const auto& column : layout::count_columns) read_field(column);
-  check_derived_columns(group.id(), plan, table);
+  table.index = hdf5::read_index(group.id(), plan.trials());
+  table.outcomes = hdf5::read_outcomes(group.id(), table.index.size());
+  check_cells(group.id(), plan, table.index);
   return table;
 }
 
@@ -139,7 +87,7 @@ Audit read_audit(hid_t file, const TrialTable& trials) {
   const std::size_t rows = hdf5::Column(group.id(), "index", hdf5::type_of(std::uint64_t{}), "1").rows();
   if (rows > trials.index.size()) throw Problem(fmt::format("/audit has {} of {} trials", rows, trials.index.size()));
   const auto index = hdf5::read_column<std::uint64_t>(group.id(), "index", "1", rows);
-  const auto statuses = read_statuses(group.id(), "/audit", rows);
+  const auto statuses = hdf5::read_statuses(group.id(), "/audit", rows);
   const auto cycles = hdf5::read_column<std::uint32_t>(group.id(), "cycles", "1", rows);
   const auto swings = hdf5::read_column<std::uint32_t>(group.id(), "swings", "1", rows);
   const auto settling = hdf5::read_column<double>(group.id(), "settling_time", "s", rows);

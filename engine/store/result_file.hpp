@@ -24,8 +24,10 @@ void require_writable(const std::filesystem::path& path);
 
 /// Writes a result file (schemas/result_file.md): under a temporary name beside `path`, closed, fsynced, renamed, and
 /// the directory fsynced, so that nobody ever reads half a file.
+/// @param workshop  where the temporary file stands instead, see write_whole_file()
 /// @throws RunFailure; whatever stood at `path` is then untouched
-void write_result(const std::filesystem::path& path, const Study& study, const StudyResult& result);
+void write_result(const std::filesystem::path& path, const Study& study, const StudyResult& result,
+                  const std::filesystem::path& workshop = {});
 
 /// Reads a result file and checks it.
 /// @throws RunFailure for a file that is missing, damaged or not ours

@@ -13,6 +13,8 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "store/failpoint.hpp"
+#include "store/free_space.hpp"
 #include "store/result_file.hpp"
 
 namespace steerstat {
@@ -62,14 +64,20 @@ int write_all(const Descriptor& file, std::initializer_list<std::span<const std:
   return 0;
 }
 
+std::uint64_t total_size(std::initializer_list<std::span<const std::byte>> parts) {
+  std::uint64_t size = 0;
+  for (const auto part : parts) size += part.size();
+  return size;
+}
+
 fs::path directory_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/// A name beside `target` that no other write of this machine uses.
-fs::path temporary_beside(const fs::path& target) {
+/// A name in a directory that no other write of this machine uses.
+fs::path temporary_in(const fs::path& directory) {
   static std::atomic<unsigned> count{0};
-  return directory_of(target) / fmt::format(".tmp-{}-{}", ::getpid(), count++);
+  return directory / fmt::format(".tmp-{}-{}", ::getpid(), count++);
 }
 
 /// A new, empty file. What an earlier process of the same number left behind is in nobody's use.
@@ -78,12 +86,32 @@ Descriptor create(const fs::path& path) {
   return Descriptor(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
 }
 
-/// Makes a rename in `directory` last. @return 0 or the error
-int sync_directory(const fs::path& directory) {
+/// Does one step of writing, in between what tests let fail. @param action  returns 0 or the error
+template <class Action>
+int step(const char* name, const Action& action) {
+  if (const int error = failpoint(Moment::before, name); error != 0) return error;
+  if (const int error = action(); error != 0) return error;
+  return failpoint(Moment::after, name);
+}
+
+/// Makes a change in `directory` last. @return 0 or the error
+int sync(const fs::path& directory) {
   const Descriptor opened(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!opened.is_open()) return errno;
   if (::fsync(opened.number()) == 0) return 0;
   return errno == EINVAL || errno == ENOTSUP ? 0 : errno;  // file systems that cannot, say so
+}
+
+/// Writes a new file that is on the disk before it gets its name. @return 0 or the error
+int write_and_rename(const fs::path& temporary, const fs::path& target,
+                     std::initializer_list<std::span<const std::byte>> parts) {
+  Descriptor file = create(temporary);
+  if (!file.is_open()) return errno;
+  int error = write_all(file, parts);
+  if (error == 0) error = step("fsync", [&] { return ::fsync(file.number()) == 0 ? 0 : errno; });
+  if (error == 0) error = step("close", [&] { return file.close(); });
+  if (error != 0) return error;
+  return step("rename", [&] { return std::rename(temporary.c_str(), target.c_str()) == 0 ? 0 : errno; });
 }
 
 /// The status of what `path` leads to, links followed; of type not_found where there is nothing.
@@ -105,7 +133,8 @@ fs::path resolved(const fs::path& path, const fs::file_status& status) {
 
 }  // namespace
 
-void write_whole_file(const fs::path& path, std::initializer_list<std::span<const std::byte>> parts) {
+void write_whole_file(const fs::path& path, std::initializer_list<std::span<const std::byte>> parts,
+                      const fs::path& workshop) {
   const fs::file_status status = status_of(path);
   if (written_in_place(status)) {
     Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
@@ -116,18 +145,18 @@ void write_whole_file(const fs::path& path, std::initializer_list<std::span<cons
     return;
   }
   const fs::path target = resolved(path, status);
-  const fs::path temporary = temporary_beside(target);
-  Descriptor file = create(temporary);
-  if (!file.is_open()) fail("write", path, errno);
-  int error = write_all(file, parts);
-  if (error == 0 && ::fsync(file.number()) != 0) error = errno;
-  if (const int closing = file.close(); error == 0) error = closing;
-  if (error == 0 && std::rename(temporary.c_str(), target.c_str()) != 0) error = errno;
-  if (error != 0) {
+  require_free_space(directory_of(target), total_size(parts));
+  const fs::path temporary = temporary_in(workshop.empty() ? directory_of(target) : workshop);
+  if (const int error = write_and_rename(temporary, target, parts); error != 0) {
     ::unlink(temporary.c_str());
     fail("write", path, error);
   }
-  if (error = sync_directory(directory_of(target)); error != 0) fail("sync the directory of", path, error);
+  sync_directory(directory_of(target));
+}
+
+void sync_directory(const fs::path& directory) {
+  const int error = step("directory-fsync", [&] { return sync(directory); });
+  if (error != 0) fail("sync the directory", directory, error);
 }
 
 std::vector<std::byte> read_whole_file(const fs::path& path) {
@@ -163,7 +192,7 @@ void require_writable(const fs::path& path) {
         fmt::format("cannot write {} (there is no directory {}); create it", path.string(), directory.string()));
   }
   // Only a try tells: permissions, read-only file systems, quotas and the length of the name all count.
-  const fs::path temporary = temporary_beside(target);
+  const fs::path temporary = temporary_in(directory);
   Descriptor file = create(temporary);
   if (!file.is_open()) fail("write", path, errno);
   ::unlink(temporary.c_str());

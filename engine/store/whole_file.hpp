@@ -11,11 +11,16 @@ namespace steerstat {
 
 /// Replaces the file at `path`: writes `.tmp-*` beside it, fsyncs, renames, and fsyncs the directory, so that after a
 /// kill or a power cut there is the old file or the new one. Through a symbolic link, the file it names is replaced. A
-/// device or a pipe is written to in place.
+/// device or a pipe is written to in place. A reserve of the disk stays free, see require_free_space().
 ///
-/// @param parts  the file's bytes, one part after the other
+/// @param parts     the file's bytes, one part after the other
+/// @param workshop  where `.tmp-*` stands instead: a directory of the same file system, for those who clear it later
 /// @throws RunFailure naming the path and the reason; whatever stood there is then untouched
-void write_whole_file(const std::filesystem::path& path, std::initializer_list<std::span<const std::byte>> parts);
+void write_whole_file(const std::filesystem::path& path, std::initializer_list<std::span<const std::byte>> parts,
+                      const std::filesystem::path& workshop = {});
+
+/// Makes what was created, renamed or deleted in a directory last. @throws RunFailure
+void sync_directory(const std::filesystem::path& directory);
 
 /// @throws RunFailure naming the path and the reason
 std::vector<std::byte> read_whole_file(const std::filesystem::path& path);

@@ -11,6 +11,7 @@
 #include "store/memory_file.hpp"
 #include "store/result_file.hpp"
 #include "store/seal.hpp"
+#include "store/trial_columns.hpp"
 #include "store/whole_file.hpp"
 #include "study/spec_json.hpp"
 
@@ -30,42 +31,13 @@ void write_description(hid_t file, const Study& study, const StudyResult& result
   hdf5::write_attribute(file, "simd", std::string(result.simd ? name_of(*result.simd) : layout::no_simd));
 }
 
-/// Writes what `value_of(row)` gives as a dataset.
-template <class Number, class ValueOf>
-void write_each(hid_t group, const std::string& name, std::size_t rows, const std::string& units,
-                const ValueOf& value_of) {
-  std::vector<Number> values(rows);
-  for (std::size_t row = 0; row < rows; ++row) values[row] = value_of(row);
-  hdf5::write_column<Number>(group, name, values, units);
-}
-
-/// Writes bytes as an enumeration of `names`.
-template <class ValueOf>
-void write_names(hid_t group, const std::string& name, std::span<const std::string_view> names, std::size_t rows,
-                 const ValueOf& value_of) {
-  std::vector<std::uint8_t> values(rows);
-  for (std::size_t row = 0; row < rows; ++row) values[row] = static_cast<std::uint8_t>(value_of(row));
-  const hdf5::Handle type = hdf5::enumeration(names);
-  hdf5::write_column(group, name, {type.id(), type.id()}, values.data(), rows, "1");
-}
-
 void write_trials(hid_t file, const Plan& plan, const TrialTable& trials) {
   const hdf5::Handle group = hdf5::create_group(file, "trials");
   const std::size_t rows = trials.index.size();
   hdf5::write_column<std::uint64_t>(group.id(), "index", trials.index, "1");
-  write_each<std::uint64_t>(group.id(), "cell", rows, "1",
-                            [&](std::size_t row) { return plan.cell_of(trials.index[row]); });
-  write_names(group.id(), "status", status_names, rows, [&](std::size_t row) { return trials.outcomes[row].status; });
-  write_each<double>(group.id(), "settling_time", rows, "s",
-                     [&](std::size_t row) { return trials.outcomes[row].settling_time(); });
-  const auto write_field = [&]<class Number>(const layout::OutcomeColumn<Number>& column) {
-    write_each<Number>(group.id(), column.name, rows, column.units, [&](std::size_t row) {
-      TrialOutcome outcome = trials.outcomes[row];
-      return column.field(outcome);
-    });
-  };
-  for (const auto& column : layout::real_columns) write_field(column);
-  for (const auto& column : layout::count_columns) write_field(column);
+  hdf5::write_each<std::uint64_t>(group.id(), "cell", rows, "1",
+                                  [&](std::size_t row) { return plan.cell_of(trials.index[row]); });
+  hdf5::write_outcomes(group.id(), trials.outcomes);
 }
 
 void write_parameters(hid_t file, const Plan& plan, const TrialTable& trials) {
@@ -86,8 +58,8 @@ void write_parameters(hid_t file, const Plan& plan, const TrialTable& trials) {
 void write_trajectory(hid_t parent, std::uint64_t index, const std::vector<TrajectorySample>& samples) {
   const hdf5::Handle group = hdf5::create_group(parent, std::to_string(index));
   const auto write = [&](const char* name, const char* units, const auto& value_of) {
-    write_each<double>(group.id(), name, samples.size(), units,
-                       [&](std::size_t row) { return value_of(samples[row]); });
+    hdf5::write_each<double>(group.id(), name, samples.size(), units,
+                             [&](std::size_t row) { return value_of(samples[row]); });
   };
   write("t", "s", [](const TrajectorySample& s) { return s.t; });
   write("q1", "m", [](const TrajectorySample& s) { return s.state.q1; });
@@ -96,7 +68,8 @@ void write_trajectory(hid_t parent, std::uint64_t index, const std::vector<Traje
   write("q2_dot", "rad/s", [](const TrajectorySample& s) { return s.state.q2_dot; });
   write("a", "m/s^2", [](const TrajectorySample& s) { return s.a; });
   write("tau", "N", [](const TrajectorySample& s) { return s.tau; });
-  write_names(group.id(), "phase", phase_names, samples.size(), [&](std::size_t row) { return samples[row].phase; });
+  hdf5::write_names(group.id(), "phase", phase_names, samples.size(),
+                    [&](std::size_t row) { return samples[row].phase; });
 }
 
 void write_audit(hid_t file, const Audit& audit) {
@@ -104,12 +77,12 @@ void write_audit(hid_t file, const Audit& audit) {
   hdf5::write_attribute(group.id(), "tolerance", audit.tolerance);
   const std::vector<AuditedTrial>& trials = audit.trials;
   const std::size_t rows = trials.size();
-  write_each<std::uint64_t>(group.id(), "index", rows, "1", [&](std::size_t row) { return trials[row].index; });
-  write_names(group.id(), "status", status_names, rows, [&](std::size_t row) { return trials[row].status; });
-  write_each<std::uint32_t>(group.id(), "cycles", rows, "1", [&](std::size_t row) { return trials[row].cycles; });
-  write_each<std::uint32_t>(group.id(), "swings", rows, "1", [&](std::size_t row) { return trials[row].swings; });
-  write_each<double>(group.id(), "settling_time", rows, "s",
-                     [&](std::size_t row) { return trials[row].settling_time; });
+  hdf5::write_each<std::uint64_t>(group.id(), "index", rows, "1", [&](std::size_t row) { return trials[row].index; });
+  hdf5::write_names(group.id(), "status", status_names, rows, [&](std::size_t row) { return trials[row].status; });
+  hdf5::write_each<std::uint32_t>(group.id(), "cycles", rows, "1", [&](std::size_t row) { return trials[row].cycles; });
+  hdf5::write_each<std::uint32_t>(group.id(), "swings", rows, "1", [&](std::size_t row) { return trials[row].swings; });
+  hdf5::write_each<double>(group.id(), "settling_time", rows, "s",
+                           [&](std::size_t row) { return trials[row].settling_time; });
 }
 
 hdf5::Bytes result_bytes(const Study& study, const StudyResult& result) {
@@ -131,11 +104,12 @@ hdf5::Bytes result_bytes(const Study& study, const StudyResult& result) {
 
 }  // namespace
 
-void write_result(const std::filesystem::path& path, const Study& study, const StudyResult& result) {
+void write_result(const std::filesystem::path& path, const Study& study, const StudyResult& result,
+                  const std::filesystem::path& workshop) {
   try {
     const hdf5::Bytes bytes = result_bytes(study, result);
     const std::string seal = seal_of(bytes.span());
-    write_whole_file(path, {bytes.span(), std::as_bytes(std::span(seal))});
+    write_whole_file(path, {bytes.span(), std::as_bytes(std::span(seal))}, workshop);
   } catch (const hdf5::Problem& problem) {
     throw RunFailure(fmt::format("cannot write {}: {}", path.string(), problem.what()));
   }

@@ -14,12 +14,16 @@
 #include <mutex>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <thread>
 #include <utility>
 
+#include "study/block_queue.hpp"
 #include "study/finished_prefix.hpp"
+#include "study/handover.hpp"
+#include "study/trial_range.hpp"
 
 namespace steerstat {
 namespace {
@@ -30,43 +34,15 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Consecutive trials [begin, end).
-struct Block {
-  std::uint64_t begin;
-  std::uint64_t end;
-};
-
-/// Hands out a study's blocks in order, so that the blocks begun are always a prefix of it. Thread-safe.
-class BlockQueue {
- public:
-  BlockQueue(std::uint64_t trials, std::uint64_t block, std::stop_token stop)
-      : trials_(trials), block_(block), stop_(std::move(stop)) {}
-
-  /// The next block; nothing once all are taken, a stop was requested or halt() was called.
-  std::optional<Block> claim() {
-    if (halted_.load(std::memory_order_relaxed) || stop_.stop_requested()) return std::nullopt;
-    const std::uint64_t begin = next_.fetch_add(block_, std::memory_order_relaxed);
-    if (begin >= trials_) return std::nullopt;
-    return Block{begin, std::min(begin + block_, trials_)};
-  }
-
-  /// Ends the run: no further block is begun.
-  void halt() { halted_.store(true, std::memory_order_relaxed); }
-
-  /// Trials in the blocks begun: exactly those before this index.
-  [[nodiscard]] std::uint64_t begun() const { return std::min(next_.load(std::memory_order_relaxed), trials_); }
-
- private:
-  const std::uint64_t trials_;
-  const std::uint64_t block_;
-  const std::stop_token stop_;
-  std::atomic<std::uint64_t> next_{0};
-  std::atomic<bool> halted_{false};
-};
-
 /// One worker's count of finished trials, on a cache line of its own so that counting costs the other workers nothing.
 struct alignas(64) Tally {
   std::atomic<std::uint64_t> finished{0};
+};
+
+/// What is told of every finished trial, beside its slot.
+struct Listeners {
+  FinishedPrefix* prefix;  ///< null where nothing but the last trial ends the run
+  HandOver* handover;      ///< null where nobody takes the outcomes meanwhile
 };
 
 std::uint64_t total(const std::vector<Tally>& tallies) {
@@ -79,15 +55,14 @@ std::uint64_t total(const std::vector<Tally>& tallies) {
 /// slot of its index. The slots of different trials are distinct objects: no two workers write the same one.
 class BlockStream final : public TrialStream {
  public:
-  /// @param prefix  told of every finished trial; null where nothing but the last trial ends the run
-  BlockStream(const Plan& plan, BlockQueue& blocks, std::vector<TrialOutcome>& outcomes, FinishedPrefix* prefix,
+  BlockStream(const Plan& plan, BlockQueue& blocks, std::vector<TrialOutcome>& outcomes, Listeners listeners,
               Tally& tally)
-      : plan_(plan), blocks_(blocks), outcomes_(outcomes), prefix_(prefix), tally_(tally) {}
+      : plan_(plan), blocks_(blocks), outcomes_(outcomes), listeners_(listeners), tally_(tally) {}
 
   bool next(std::uint64_t& index, TrialParameters& parameters) override {
     if (block_.begin == block_.end) {
       if (dry_) return false;
-      const std::optional<Block> claimed = blocks_.claim();
+      const std::optional<TrialRange> claimed = blocks_.claim();
       dry_ = !claimed;
       if (dry_) return false;
       block_ = *claimed;
@@ -100,25 +75,32 @@ class BlockStream final : public TrialStream {
   void finished(std::uint64_t index, const TrialOutcome& outcome) override {
     outcomes_[index] = outcome;
     tally_.finished.fetch_add(1, std::memory_order_relaxed);
-    if (prefix_ != nullptr && prefix_->finished(index)) blocks_.halt();
+    if (listeners_.prefix != nullptr && listeners_.prefix->finished(index)) blocks_.halt();
+    if (listeners_.handover != nullptr) listeners_.handover->finished(index);
   }
 
  private:
   const Plan& plan_;
   BlockQueue& blocks_;
   std::vector<TrialOutcome>& outcomes_;
-  FinishedPrefix* const prefix_;
+  const Listeners listeners_;
   Tally& tally_;
-  Block block_{0, 0};
+  TrialRange block_{0, 0};
   bool dry_{false};  // a runner may ask again after the end; the answer stays no
 };
 
 /// Calls the progress callback from a thread of its own, which sleeps in between, until destroyed or finish()ed.
 class ProgressReports {
  public:
-  ProgressReports(const RunOptions& options, std::uint64_t requested, const std::vector<Tally>& tallies,
-                  Clock::time_point start, BlockQueue& blocks)
-      : callback_(options.on_progress), requested_(requested), tallies_(tallies), start_(start), blocks_(blocks) {
+  /// @param earlier  trials finished before the run
+  ProgressReports(const RunOptions& options, std::uint64_t requested, std::uint64_t earlier,
+                  const std::vector<Tally>& tallies, Clock::time_point start, BlockQueue& blocks)
+      : callback_(options.on_progress),
+        requested_(requested),
+        earlier_(earlier),
+        tallies_(tallies),
+        start_(start),
+        blocks_(blocks) {
     if (callback_) thread_ = std::jthread([this](const std::stop_token& stop) { report_until(stop); });
   }
 
@@ -132,7 +114,7 @@ class ProgressReports {
   }
 
  private:
-  void report() { callback_(Progress{total(tallies_), requested_, seconds_since(start_)}); }
+  void report() { callback_(Progress{earlier_ + total(tallies_), requested_, seconds_since(start_), earlier_}); }
 
   void report_until(const std::stop_token& stop) {
     constexpr std::chrono::milliseconds interval{200};
@@ -152,6 +134,7 @@ class ProgressReports {
 
   const std::function<void(const Progress&)>& callback_;
   const std::uint64_t requested_;
+  const std::uint64_t earlier_;
   const std::vector<Tally>& tallies_;
   const Clock::time_point start_;
   BlockQueue& blocks_;
@@ -208,11 +191,66 @@ PrecisionWatch watch_of(const Study& study, const Plan& plan) {
   return {*study.stop, study.sampling.trials, plan.cells()};
 }
 
-/// Leaves the first `rows` trials.
-void keep(TrialTable& trials, std::uint64_t rows) {
-  trials.outcomes.resize(rows);
-  trials.index.resize(rows);
-  std::iota(trials.index.begin(), trials.index.end(), std::uint64_t{0});
+/// Shows the rule the trials that were finished before the run.
+void show(FinishedPrefix& prefix, std::span<const TrialRange> known, BlockQueue& blocks) {
+  bool stopped = false;
+  for (const TrialRange& range : known) {
+    for (std::uint64_t index = range.begin; index < range.end; ++index) stopped = prefix.finished(index);
+  }
+  if (stopped) blocks.halt();
+}
+
+/// Runs the workers until no block is left to begin. @throws what a worker threw
+void work(const Study& study, const Plan& plan, const RunOptions& options, BlockQueue& blocks,
+          std::vector<TrialOutcome>& outcomes, Listeners listeners, std::vector<Tally>& tallies) {
+  const auto work_as = [&](std::size_t worker) {
+    try {
+      BlockStream stream(plan, blocks, outcomes, listeners, tallies[worker]);
+      const auto runner =
+          options.make_runner ? options.make_runner(study.integrator) : make_runner(study.integrator, options.simd);
+      runner->run(stream);
+    } catch (...) {
+      blocks.halt();
+      throw;  // TBB hands the first to the caller
+    }
+  };
+  tbb::task_arena arena(static_cast<int>(tallies.size()));
+  arena.execute([&] { tbb::parallel_for(std::size_t{0}, tallies.size(), work_as, tbb::simple_partitioner{}); });
+}
+
+/// Runs what was not finished earlier. Fills in the trials, their time and whether they are complete.
+void run_trials(const Study& study, const Plan& plan, const RunOptions& options, FinishedTrials earlier,
+                StudyResult& result) {
+  const Clock::time_point start = Clock::now();
+  const std::uint64_t block = block_size(study);
+  const std::vector<TrialRange> known = ranges_of(earlier.trials.index);
+  std::vector<TrialOutcome> outcomes = spread(std::move(earlier.trials), plan.trials());
+  BlockQueue blocks(known, plan.trials(), block, options.stop);
+  std::optional<FinishedPrefix> prefix;
+  if (study.stop) {
+    prefix.emplace(watch_of(study, plan), outcomes, block);
+    show(*prefix, known, blocks);
+  }
+  std::optional<HandOver> handover;
+  if (options.sink != nullptr) {
+    handover.emplace(*options.sink, blocks.blocks(), block, outcomes, [&blocks] { blocks.halt(); });
+  }
+  std::vector<Tally> tallies(result.threads);
+  ProgressReports reports(options, plan.trials(), trials_in(known), tallies, start, blocks);
+  work(study, plan, options, blocks, outcomes, {prefix ? &*prefix : nullptr, handover ? &*handover : nullptr}, tallies);
+  result.wall_s = earlier.wall_s + seconds_since(start);
+  if (handover) handover->finish();
+  reports.finish();
+  if (total(tallies) != blocks.begun()) throw std::logic_error("a runner returned before its trials were finished");
+
+  const std::uint64_t finished = blocks.first_left();  // all before it
+  result.trials = gathered(std::move(outcomes), finished, known);
+  // Of the trials beyond the look that stopped the study, some have run, which ones is a matter of timing.
+  const std::uint64_t due = trials_due(study, result.trials);
+  result.complete = finished >= due;
+  if (!result.complete) return;
+  result.trials.index.resize(due);
+  result.trials.outcomes.resize(due);
 }
 
 }  // namespace
@@ -235,52 +273,19 @@ std::uint64_t block_size(const Study& study) {
   return study.integrator.method == IntegratorChoice::Method::cvode ? 16 : 128;
 }
 
-StudyResult run_study(const Study& study, const RunOptions& options) {
-  const Clock::time_point start = Clock::now();
+StudyResult run_study(const Study& study, const RunOptions& options, FinishedTrials earlier) {
   const Plan plan(study);
-  const std::uint64_t trials = plan.trials();
-  const std::uint64_t block = block_size(study);
   const auto cores = static_cast<unsigned>(tbb::info::default_concurrency());
   const std::uint64_t asked = options.threads == 0 ? cores : options.threads;
-  const auto workers = static_cast<unsigned>(std::clamp<std::uint64_t>((trials + block - 1) / block, 1, asked));
+  const std::uint64_t blocks = (plan.trials() + block_size(study) - 1) / block_size(study);
+  const auto workers = static_cast<unsigned>(std::clamp<std::uint64_t>(blocks, 1, asked));
 
   StudyResult result;
   result.threads = workers;
   if (study.integrator.method == IntegratorChoice::Method::lockstep) result.simd = options.simd;
-  result.trials.outcomes.resize(trials);
-  BlockQueue blocks(trials, block, options.stop);
-  std::optional<FinishedPrefix> prefix;
-  if (study.stop) prefix.emplace(watch_of(study, plan), result.trials.outcomes, block);
-  std::vector<Tally> tallies(workers);
-  ProgressReports reports(options, trials, tallies, start, blocks);
-
   // TBB keeps to the cores unless allowed more; the caller may ask for more.
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, std::max(workers, cores));
-  tbb::task_arena arena(static_cast<int>(workers));
-  arena.execute([&] {
-    const auto work = [&](unsigned worker) {
-      try {
-        BlockStream stream(plan, blocks, result.trials.outcomes, prefix ? &*prefix : nullptr, tallies[worker]);
-        const auto runner =
-            options.make_runner ? options.make_runner(study.integrator) : make_runner(study.integrator, options.simd);
-        runner->run(stream);
-      } catch (...) {
-        blocks.halt();
-        throw;  // TBB hands the first to the caller
-      }
-    };
-    tbb::parallel_for(0U, workers, work, tbb::simple_partitioner{});
-  });
-  result.wall_s = seconds_since(start);
-  reports.finish();
-
-  const std::uint64_t kept = blocks.begun();
-  if (total(tallies) != kept) throw std::logic_error("a runner returned before its trials were finished");
-  keep(result.trials, kept);
-  // Of the trials beyond the look that stopped the study, some have run, which ones is a matter of timing.
-  const std::uint64_t due = trials_due(study, result.trials);
-  result.complete = kept >= due;
-  if (result.complete) keep(result.trials, due);
+  run_trials(study, plan, options, std::move(earlier), result);
   // Of a few lockstep trials, which fill one block, the audit still has work for every thread.
   tbb::task_arena wide_arena(static_cast<int>(std::min<std::uint64_t>(asked, std::max(workers, cores))));
   wide_arena.execute([&] {

@@ -9,9 +9,11 @@
 
 #include "core/instruction_set.hpp"
 #include "study/audit.hpp"
+#include "study/outcome_sink.hpp"
 #include "study/plan.hpp"
 #include "study/precision_watch.hpp"
 #include "study/study.hpp"
+#include "study/trial_table.hpp"
 #include "trial/replay.hpp"
 #include "trial/runner.hpp"
 
@@ -21,7 +23,8 @@ namespace steerstat {
 struct Progress {
   std::uint64_t completed{0};  ///< trials finished
   std::uint64_t requested{0};
-  double elapsed{0.0};  ///< [s] wall time since the run began
+  double elapsed{0.0};       ///< [s] wall time since the run began
+  std::uint64_t earlier{0};  ///< of the completed, trials finished before the run began
 };
 
 struct RunOptions {
@@ -31,19 +34,14 @@ struct RunOptions {
   std::function<void(const Progress&)> on_progress{};
   std::stop_token stop{};                       ///< a request ends the run after the blocks in flight
   InstructionSet simd{best_instruction_set()};  ///< what lockstep runs on; the outcomes are the same bits on each
+  OutcomeSink* sink{nullptr};  ///< takes every finished trial of the run while it goes on; null: nobody does
   /// Makes each worker's runner, on that worker; empty: make_runner(integrator, simd).
   std::function<std::unique_ptr<TrialRunner>(const IntegratorChoice&)> make_runner{};
 };
 
-/// Finished trials, as columns in index order. Whole blocks only: a run that was interrupted keeps every block it had
-/// begun, so which trials are kept never depends on how they ended. A study that stopped on precision keeps exactly the
-/// trials up to the look that stopped it.
-struct TrialTable {
-  std::vector<std::uint64_t> index;    ///< (rows) ascending
-  std::vector<TrialOutcome> outcomes;  ///< (rows)
-};
-
-/// What a run leaves.
+/// What a run leaves. Of the trials, whole blocks only, and those finished earlier: a run that was interrupted keeps
+/// every block it had begun, so which trials are kept never depends on how they ended. A study that stopped on
+/// precision keeps exactly the trials up to the look that stopped it.
 struct StudyResult {
   TrialTable trials;
   bool complete{false};  ///< every trial is there, or every one up to where the study's rule stopped it
@@ -53,8 +51,8 @@ struct StudyResult {
   };
   std::vector<Retained> trajectories;  ///< as `retention` asks, by index
   Audit audit;                         ///< as `audited_trials` asks; a stop cuts it short
-  double wall_s{0.0};                  ///< [s] the trials took, retained trajectories and audit not counted
-  unsigned threads{0};  ///< workers that shared the trials: as asked, but never more than there were blocks
+  double wall_s{0.0};   ///< [s] the trials took, those finished earlier too, retained trajectories and audit not
+  unsigned threads{0};  ///< workers that shared the trials: as asked, but never more than the study has blocks
   std::optional<InstructionSet> simd;  ///< what lockstep ran on; nothing with another integrator
 };
 
@@ -74,8 +72,10 @@ std::uint64_t trials_due(const Study& study, const TrialTable& trials);
 /// Runs a study on TBB, then audits it. The outcomes and the audit are the same bits whatever the number of threads.
 /// Safe to call from several threads at once.
 ///
-/// @throws RunFailure, BadUsage where this machine does not run the instruction set asked for, and whatever a worker or
-/// the progress callback throws, with nothing kept.
-StudyResult run_study(const Study& study, const RunOptions& options);
+/// @param earlier  trials of this study, or of one that it continues(), that need not run again; the result has them
+///                 too, and is the same as if all had run now
+/// @throws RunFailure, BadUsage where this machine does not run the instruction set asked for, and whatever a worker,
+/// the progress callback or the sink throws, with nothing kept but by the sink.
+StudyResult run_study(const Study& study, const RunOptions& options, FinishedTrials earlier = {});
 
 }  // namespace steerstat

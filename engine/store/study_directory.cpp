@@ -1,0 +1,161 @@
+#include "store/study_directory.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include "core/errors.hpp"
+#include "core/version.hpp"
+#include "store/whole_file.hpp"
+#include "study/plan.hpp"
+#include "study/spec_json.hpp"
+
+namespace steerstat {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* study_file = "study.h5";
+constexpr const char* temporary_prefix = ".tmp-";
+constexpr const char* shard_prefix = "trials-";
+constexpr const char* damaged_prefix = "damaged-";
+
+[[noreturn]] void fail(const char* verb, const fs::path& path, const std::error_code& error) {
+  throw RunFailure(fmt::format("cannot {} {} ({})", verb, path.string(), error.message()));
+}
+
+void remove_file(const fs::path& path) {
+  std::error_code error;
+  fs::remove(path, error);
+  if (error) fail("delete", path, error);
+}
+
+/// A directory that is new is on the disk with its name before anything is kept in it.
+void make_directory(const fs::path& path) {
+  std::error_code error;
+  const bool made = fs::create_directory(path, error);
+  if (error) fail("make the directory", path, error);
+  if (made) sync_directory(path.has_parent_path() ? path.parent_path() : ".");
+}
+
+bool begins_with(const fs::path& file, const char* prefix) {
+  return file.filename().string().starts_with(prefix);
+}
+
+}  // namespace
+
+StudyDirectory::StudyDirectory(fs::path path) : path_(std::move(path)) {
+  make_directory(path_);
+  lock_.emplace(path_);
+  remove_files(temporary_prefix);
+}
+
+std::vector<fs::path> StudyDirectory::files_called(const char* prefix) const {
+  std::error_code error;
+  std::vector<fs::path> found;
+  fs::directory_iterator entry(path_, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    if (begins_with(entry->path(), prefix)) found.push_back(entry->path());
+  }
+  if (error) fail("list", path_, error);
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+bool StudyDirectory::has_shards() const {
+  return !files_called(shard_prefix).empty() || !files_called(damaged_prefix).empty();
+}
+
+std::optional<StoredStudy> StudyDirectory::begun() const {
+  const fs::path file = path_ / study_file;
+  std::error_code error;
+  if (!fs::exists(file, error) && !error) return std::nullopt;
+  return read_result(file);
+}
+
+/// Whether the directory's study is this one, of this version of the engine.
+bool StudyDirectory::holds(const Study& study) const {
+  try {
+    const std::optional<StoredStudy> before = begun();
+    return before && before->engine_version == engine_version() &&
+           canonical_spec(before->study) == canonical_spec(study);
+  } catch (const RunFailure&) {
+    return false;
+  }
+}
+
+SetAside StudyDirectory::set_study_aside(const std::string& reason) {
+  study_.reset();
+  return set_aside(path_ / study_file, reason);
+}
+
+void StudyDirectory::begin(const Study& study) {
+  study_ = study;
+  origin_ = origin_of(study);
+  if (!holds(study)) write_result(path_ / study_file, study, {});
+}
+
+Recovery StudyDirectory::recover() {
+  const std::uint64_t trials = Plan(study_.value()).trials();
+  Recovery recovery;
+  for (const fs::path& file : files_called(shard_prefix)) {
+    try {
+      Shard shard = read_shard(file, origin_, trials);
+      FinishedTrials of_shard{{{}, std::move(shard.outcomes)}, shard.wall_s};
+      for (std::uint64_t i = 0; i < of_shard.trials.outcomes.size(); ++i) {
+        of_shard.trials.index.push_back(shard.begin + i);
+      }
+      recovery.finished = joined(std::move(recovery.finished), std::move(of_shard));
+    } catch (const RunFailure& damage) {
+      recovery.set_aside.push_back(set_aside(file, damage.what()));
+    }
+  }
+  return recovery;
+}
+
+SetAside StudyDirectory::set_aside(const fs::path& file, const std::string& reason) const {
+  fs::path name;
+  unsigned count = 0;
+  do {
+    const std::string number = ++count == 1 ? "" : fmt::format("{}-", count);
+    name = path_ / (damaged_prefix + number + file.filename().string());
+  } while (fs::exists(name));
+  std::error_code error;
+  fs::rename(file, name, error);
+  if (error) fail("rename", file, error);
+  return {name, reason};
+}
+
+void StudyDirectory::keep(std::uint64_t first, std::span<const TrialOutcome> outcomes, double wall_s) {
+  write_shard(path_, origin_, first, outcomes, wall_s);
+}
+
+void StudyDirectory::consolidate(const fs::path& path, const StudyResult& result) {
+  write_result(path, study_.value(), result, path_);
+  remove_files(shard_prefix);
+  remove_files(damaged_prefix);
+}
+
+void StudyDirectory::remove() {
+  for (const char* prefix : {shard_prefix, damaged_prefix, temporary_prefix, study_file, DirectoryLock::file_name}) {
+    remove_files(prefix);
+  }
+  lock_.reset();
+  std::error_code error;
+  fs::remove(path_, error);
+  if (error && error != std::errc::directory_not_empty) fail("delete", path_, error);
+}
+
+void StudyDirectory::remove_files(const char* prefix) const {
+  for (const fs::path& file : files_called(prefix)) remove_file(file);
+}
+
+void ShardSink::take(std::uint64_t begin, std::span<const TrialOutcome> outcomes) {
+  const Clock::time_point now = Clock::now();
+  directory_.keep(begin, outcomes, std::chrono::duration<double>(now - last_).count());
+  last_ = now;
+}
+
+}  // namespace steerstat

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/status.hpp"
+#include "store/hdf5.hpp"
+#include "trial/trial.hpp"
+
+/// The datasets of /trials that result files and shards share: what each trial ended in.
+namespace steerstat::hdf5 {
+
+/// Writes every dataset that follows from the outcomes alone.
+void write_outcomes(hid_t trials, std::span<const TrialOutcome> outcomes);
+
+/// Reads back what write_outcomes() wrote, the same bits. @throws Problem
+std::vector<TrialOutcome> read_outcomes(hid_t trials, std::size_t rows);
+
+/// Reads `status` of a group. @param place  the group's name, for messages @throws Problem
+std::vector<Status> read_statuses(hid_t group, std::string_view place, std::size_t rows);
+
+/// Reads `index`. @return below `trials`, rising @throws Problem
+std::vector<std::uint64_t> read_index(hid_t group, std::uint64_t trials);
+
+}  // namespace steerstat::hdf5

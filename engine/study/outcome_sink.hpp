@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "trial/trial.hpp"
+
+namespace steerstat {
+
+/// Takes the outcomes of a run while it goes on, to keep them whatever happens to the process.
+///
+/// It is called from one thread of the run's own, which holds up no trial, at most once per trial, in rising order of
+/// index: as soon as 2^16 trials wait, or a twentieth of the time since the run began has passed since the last call,
+/// but at least a tenth of a second and at most ten.
+class OutcomeSink {
+ public:
+  OutcomeSink() = default;
+  virtual ~OutcomeSink() = default;
+  OutcomeSink(const OutcomeSink&) = delete;
+  OutcomeSink& operator=(const OutcomeSink&) = delete;
+
+  /// Takes finished trials. What it throws ends the run and leaves run_study().
+  ///
+  /// @param begin     index of the first
+  /// @param outcomes  (trials) of consecutive indices, at least one
+  virtual void take(std::uint64_t begin, std::span<const TrialOutcome> outcomes) = 0;
+};
+
+}  // namespace steerstat

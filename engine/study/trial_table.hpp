@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "study/trial_range.hpp"
+#include "trial/trial.hpp"
+
+namespace steerstat {
+
+/// Finished trials, as columns in index order.
+struct TrialTable {
+  std::vector<std::uint64_t> index;    ///< (rows) ascending
+  std::vector<TrialOutcome> outcomes;  ///< (rows)
+};
+
+/// What runs of a study finished before this one.
+struct FinishedTrials {
+  TrialTable trials;
+  double wall_s{0.0};  ///< [s] they took
+};
+
+/// Joins what two runs of a study finished: the trials of either, each once.
+FinishedTrials joined(FinishedTrials a, FinishedTrials b);
+
+/// Moves outcomes to the slots of their indices.
+/// @return (trials) by index; those that the table does not have, as made by TrialOutcome's constructor
+/// @throws std::invalid_argument where the table has an index of `trials` or beyond
+std::vector<TrialOutcome> spread(TrialTable table, std::uint64_t trials);
+
+/// The way back: the trials before `end`, and those after it that are `known`.
+TrialTable gathered(std::vector<TrialOutcome> slots, std::uint64_t end, std::span<const TrialRange> known);
+
+}  // namespace steerstat
