@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "study/spec_json.hpp"
+#include "trial/metric.hpp"
 
 namespace steerstat {
 namespace {
@@ -10,18 +11,22 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json outcome_json(const TrialOutcome& outcome) {
-  return {{"status", name_of(outcome.status)},
-          {"settling_time", outcome.settling_time()},
-          {"end_time", outcome.end_time},
-          {"cycles", outcome.cycles},
-          {"swings", outcome.swings},
-          {"alignments", outcome.alignments},
-          {"passive_error", outcome.passive_error},
-          {"active_error", outcome.active_error},
-          {"q1", outcome.end_state.q1},
-          {"q2", outcome.end_state.q2},
-          {"q1_dot", outcome.end_state.q1_dot},
-          {"q2_dot", outcome.end_state.q2_dot}};
+  Json json{{"status", name_of(outcome.status)},
+            {"settling_time", outcome.settling_time()},
+            {"end_time", outcome.end_time},
+            {"cycles", outcome.cycles},
+            {"swings", outcome.swings},
+            {"alignments", outcome.alignments},
+            {"passive_error", outcome.passive_error},
+            {"active_error", outcome.active_error},
+            {"q1", outcome.end_state.q1},
+            {"q2", outcome.end_state.q2},
+            {"q1_dot", outcome.end_state.q1_dot},
+            {"q2_dot", outcome.end_state.q2_dot}};
+  for (const Metric& metric : metrics()) {
+    if (!json.contains(metric.name)) json[std::string(metric.name)] = metric.value(outcome);
+  }
+  return json;
 }
 
 Json samples_json(const std::vector<TrajectorySample>& samples) {

@@ -16,6 +16,7 @@
 #include <type_traits>
 
 #include "core/errors.hpp"
+#include "integrate/exertion_meter.hpp"
 #include "integrate/step_polynomial.hpp"
 
 namespace steerstat {
@@ -116,7 +117,7 @@ int root_functions(realtype t, N_Vector y, realtype* g, void* user) {
 struct CvodeIntegrator::Solver final : DenseOutput {
   explicit Solver(double tolerance);
 
-  Arrival advance(double t0, const State<double>& x0, double t_end, StepObserver* observer);
+  Arrival advance(double t0, const State<double>& x0, double t_end, StepObserver* observer, ExertionMeter* meter);
 
   /// The state at t [s] since the trial's start, within the last step.
   [[nodiscard]] State<double> at(double t) const override { return interpolate(t - origin); }
@@ -261,7 +262,8 @@ std::optional<double> CvodeIntegrator::Solver::find_crossing(const Moment& befor
   return same_as_root ? std::nullopt : first;
 }
 
-Arrival CvodeIntegrator::Solver::advance(double t0, const State<double>& x0, double t_end, StepObserver* observer) {
+Arrival CvodeIntegrator::Solver::advance(double t0, const State<double>& x0, double t_end, StepObserver* observer,
+                                         ExertionMeter* meter) {
   const double duration = t_end - t0;
   if (!(duration > 0.0)) return {t0, x0, Cause::time};
   if (!is_finite(x0)) return {t0, x0, Cause::failure};
@@ -283,6 +285,7 @@ Arrival CvodeIntegrator::Solver::advance(double t0, const State<double>& x0, dou
     const std::optional<double> crossing = find_crossing(before, after, rooted, kinked ? now : step_end());
     const double t = ended && !crossing ? t_end : std::min(t0 + crossing.value_or(now), t_end);
     if (observer != nullptr) observer->step(t0 + before.t, t, *this);
+    if (meter != nullptr) meter->step(t0 + before.t, t, *this);
     if (crossing) return {t, interpolate(*crossing), Cause::guard};
     if (rooted) return {t, after.x, Cause::guard};
     if (ended) return {t, after.x, Cause::time};
@@ -303,9 +306,11 @@ CvodeIntegrator::CvodeIntegrator(CvodeIntegrator&&) noexcept = default;
 CvodeIntegrator& CvodeIntegrator::operator=(CvodeIntegrator&&) noexcept = default;
 
 Arrival CvodeIntegrator::advance(const ClosedLoop<double>& loop, const Phase& phase, double t0, const State<double>& x0,
-                                 double t_end, StepObserver* observer) {
+                                 double t_end, StepObserver* observer, Exertion* exertion) {
   solver_->user = {loop, phase};
-  return solver_->advance(t0, x0, t_end, observer);
+  if (exertion == nullptr) return solver_->advance(t0, x0, t_end, observer, nullptr);
+  ExertionMeter meter(loop, phase, t0, *exertion);
+  return solver_->advance(t0, x0, t_end, observer, &meter);
 }
 
 }  // namespace steerstat

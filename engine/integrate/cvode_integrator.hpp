@@ -4,6 +4,7 @@
 
 #include "integrate/arrival.hpp"
 #include "integrate/closed_loop.hpp"
+#include "integrate/exertion.hpp"
 
 namespace steerstat {
 
@@ -31,10 +32,11 @@ class CvodeIntegrator {
   ///
   /// @param t0, t_end  [s]; t_end <= t0 (or not a number) arrives at once
   /// @param x0         state at t0; where it is not finite, the integration fails at t0
-  /// @param observer   sees every step, or none
+  /// @param observer   sees every step; may be null
+  /// @param exertion   of the course so far, brought up to date; null where nobody asks
   /// @return where it stopped, and why; never throws
   Arrival advance(const ClosedLoop<double>& loop, const Phase& phase, double t0, const State<double>& x0, double t_end,
-                  StepObserver* observer = nullptr);
+                  StepObserver* observer = nullptr, Exertion* exertion = nullptr);
 
  private:
   struct Solver;

@@ -1,5 +1,7 @@
 #include "integrate/lockstep_integrator.hpp"
 
+#include "integrate/exertion_meter.hpp"
+
 namespace steerstat {
 namespace {
 
@@ -20,8 +22,10 @@ LockstepIntegrator::LockstepIntegrator(double tolerance, InstructionSet set, int
     : engine_(make_lockstep_engine(tolerance, set, kind)), lane_(lane) {}
 
 Arrival LockstepIntegrator::advance(const ClosedLoop<double>& loop, const Phase& phase, double t,
-                                    const State<double>& x, double t_end, StepObserver* observer) {
+                                    const State<double>& x, double t_end, StepObserver* observer, Exertion* exertion) {
   engine_->seat(lane_, loop);
+  Exertion nobody_asks;
+  ExertionMeter meter(loop, phase, t, exertion != nullptr ? *exertion : nobody_asks);
   engine_->start(lane_, phase, t, x, t_end);
   const LaneOutput output(*engine_, lane_);
   double from = t;
@@ -30,6 +34,7 @@ Arrival LockstepIntegrator::advance(const ClosedLoop<double>& loop, const Phase&
     ended = engine_->step() != 0;
     const double to = engine_->arrival(lane_).t;
     if (observer != nullptr && to > from) observer->step(from, to, output);
+    if (exertion != nullptr && to > from) meter.step(from, to, output);
     from = to;
   }
   const Arrival arrival = engine_->arrival(lane_);

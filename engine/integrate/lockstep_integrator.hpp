@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "integrate/exertion.hpp"
 #include "integrate/lockstep_engine.hpp"
 
 namespace steerstat {
@@ -16,9 +17,10 @@ class LockstepIntegrator {
                               LoopKind kind = LoopKind::ideal);
 
   /// Integrates one phase. @param t, x  time [s] and state at its start, @param t_end  [s] > t, where it ends unless a
-  /// guard of `phase` fires first, @param observer  watches the steps; may be null
+  /// guard of `phase` fires first, @param observer  watches the steps; may be null, @param exertion  of the course so
+  /// far, brought up to date; null where nobody asks
   Arrival advance(const ClosedLoop<double>& loop, const Phase& phase, double t, const State<double>& x, double t_end,
-                  StepObserver* observer = nullptr);
+                  StepObserver* observer = nullptr, Exertion* exertion = nullptr);
 
  private:
   std::unique_ptr<LockstepEngine> engine_;

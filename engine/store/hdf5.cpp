@@ -75,4 +75,8 @@ Handle open_group(hid_t parent, const std::string& name) {
   return {H5Gopen2(parent, name.c_str(), H5P_DEFAULT), H5Gclose, "cannot open the group " + name};
 }
 
+bool has_member(hid_t group, const std::string& name) {
+  return checked(H5Lexists(group, name.c_str(), H5P_DEFAULT), "cannot look for " + name) > 0;
+}
+
 }  // namespace steerstat::hdf5

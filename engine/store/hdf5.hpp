@@ -85,4 +85,7 @@ Handle boolean();
 Handle create_group(hid_t parent, const std::string& name);
 Handle open_group(hid_t parent, const std::string& name);
 
+/// Whether a group has something called `name`. @throws Problem
+bool has_member(hid_t group, const std::string& name);
+
 }  // namespace steerstat::hdf5

@@ -35,6 +35,18 @@ inline constexpr OutcomeColumn<double> real_columns[] = {
     {"q2_dot", "rad/s", [](TrialOutcome& o) -> double& { return o.end_state.q2_dot; }},
 };
 
+/// Metrics, which files from before there were any do not have: NaN then.
+inline constexpr OutcomeColumn<double> metric_columns[] = {
+    {"effort", "N^2 s", [](TrialOutcome& o) -> double& { return o.effort; }},
+    {"peak_acceleration", "m/s^2", [](TrialOutcome& o) -> double& { return o.peak_acceleration; }},
+    {"peak_force", "N", [](TrialOutcome& o) -> double& { return o.peak_force; }},
+    {"peak_stroke", "m", [](TrialOutcome& o) -> double& { return o.peak_stroke; }},
+    {"position_contraction_mean", "1", [](TrialOutcome& o) -> double& { return o.position_contraction.mean; }},
+    {"position_contraction_worst", "1", [](TrialOutcome& o) -> double& { return o.position_contraction.worst; }},
+    {"velocity_contraction_mean", "1", [](TrialOutcome& o) -> double& { return o.velocity_contraction.mean; }},
+    {"velocity_contraction_worst", "1", [](TrialOutcome& o) -> double& { return o.velocity_contraction.worst; }},
+};
+
 inline constexpr OutcomeColumn<std::uint32_t> count_columns[] = {
     {"cycles", "1", [](TrialOutcome& o) -> std::uint32_t& { return o.cycles; }},
     {"swings", "1", [](TrialOutcome& o) -> std::uint32_t& { return o.swings; }},

@@ -42,6 +42,7 @@ void write_outcomes(hid_t trials, std::span<const TrialOutcome> outcomes) {
   };
   for (const auto& column : layout::real_columns) write_field(column);
   for (const auto& column : layout::count_columns) write_field(column);
+  for (const auto& column : layout::metric_columns) write_field(column);
 }
 
 std::vector<TrialOutcome> read_outcomes(hid_t trials, std::size_t rows) {
@@ -54,6 +55,9 @@ std::vector<TrialOutcome> read_outcomes(hid_t trials, std::size_t rows) {
   };
   for (const auto& column : layout::real_columns) read_field(column);
   for (const auto& column : layout::count_columns) read_field(column);
+  for (const auto& column : layout::metric_columns) {
+    if (has_member(group, column.name)) read_field(column);
+  }
   check_settling_times(trials, outcomes);
   return outcomes;
 }

@@ -10,7 +10,7 @@ namespace steerstat {
 
 IntegratorChoice auditor_of(const IntegratorChoice& integrator) {
   constexpr double least_tolerance = 1e-12;
-  return {IntegratorChoice::Method::cvode, std::max(integrator.tolerance / 100.0, least_tolerance)};
+  return {IntegratorChoice::Method::cvode, std::max(integrator.tolerance / 100.0, least_tolerance), false};
 }
 
 std::vector<std::uint64_t> rows_to_audit(std::uint64_t seed, std::uint64_t wanted, std::uint64_t finished) {

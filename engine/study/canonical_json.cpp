@@ -119,6 +119,7 @@ std::string canonical_spec(const Study& study) {
     spec["intervals"] = std::move(intervals);
   }
   if (study.stop) spec["stop"] = encode_stop(*study.stop);
+  if (!study.integrator.metrics) spec["metrics"] = false;
   std::string text;
   write(spec, text);
   return text;

@@ -74,15 +74,18 @@ class Decoder {
     const bool stops = root_.find("stop").has_value();
     study_.intervals = default_intervals(stops);
     if (const auto intervals = root_.find("intervals")) study_.intervals = decode_intervals(*intervals, stops);
+    if (const auto metrics = root_.find("metrics")) {
+      study_.integrator.metrics = metrics->boolean().value_or(study_.integrator.metrics);
+    }
     check_rules(study_, mistaken_, errors_);
     return study_;
   }
 
  private:
   void refuse_unknown_keys() {
-    static constexpr std::array<std::string_view, 15> known{
-        "name",    "nominal",    "plant",    "initial_state", "goal",   "controller", "actuator", "sensor",
-        "horizon", "integrator", "sampling", "stop",          "retain", "audit",      "intervals"};
+    static constexpr std::array<std::string_view, 16> known{
+        "name",    "nominal",    "plant",    "initial_state", "goal",   "controller", "actuator",  "sensor",
+        "horizon", "integrator", "sampling", "stop",          "retain", "audit",      "intervals", "metrics"};
     std::vector<std::string_view> spoken_for(later_keys.begin(), later_keys.end());
     spoken_for.emplace_back("kind");
     root_.refuse_unknown_keys(known, spoken_for);

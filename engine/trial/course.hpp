@@ -1,10 +1,13 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "integrate/arrival.hpp"
 #include "integrate/closed_loop.hpp"
+#include "integrate/exertion.hpp"
 #include "integrate/lockstep_engine.hpp"
+#include "trial/contraction_record.hpp"
 #include "trial/supervision.hpp"
 #include "trial/trial.hpp"
 
@@ -31,8 +34,21 @@ inline LoopKind loop_kind_of(const TrialParameters& parameters) {
 
 /// What a trial reports that ended with `status` in state x at time t, whatever the supervisor read there.
 inline TrialOutcome outcome_of(Status status, double t, const State<double>& x, const Memory& memory,
-                               const Goal& goal) {
-  return {status, memory.cycles, memory.swings, memory.alignments, t, x, passive_error(x, goal), active_error(x, goal)};
+                               const ContractionRecord& contraction, const Goal& goal) {
+  TrialOutcome outcome{status, memory.cycles,          memory.swings,        memory.alignments, t,
+                       x,      passive_error(x, goal), active_error(x, goal)};
+  outcome.position_contraction = contraction.position();
+  outcome.velocity_contraction = contraction.velocity();
+  return outcome;
+}
+
+/// Reports what a trial's course asked of the first joint; nothing of what is not finite.
+inline void report_exertion(const Exertion& exertion, TrialOutcome& outcome) {
+  const auto finite = [](double x) { return std::isfinite(x) ? x : no_value; };
+  outcome.effort = finite(exertion.effort);
+  outcome.peak_acceleration = finite(exertion.peak_acceleration);
+  outcome.peak_force = finite(exertion.peak_force);
+  outcome.peak_stroke = finite(exertion.peak_stroke);
 }
 
 /// Runs one trial, phase by phase, as CONTROLLER.md section 5 says.
@@ -44,16 +60,19 @@ TrialOutcome run_course(const TrialParameters& parameters, Advance&& advance) {
   double t = 0.0;
   State<double> x = parameters.start;
   Supervision supervision;
+  ContractionRecord contraction;
   while (true) {
     const Decision decision = supervision.decide(parameters, t, x);
-    if (decision.outcome) return outcome_of(*decision.outcome, t, x, supervision.memory(), goal);
+    if (decision.outcome) return outcome_of(*decision.outcome, t, x, supervision.memory(), contraction, goal);
+    contraction.start(decision.phase, t, x, goal, parameters.controller.horizon);
     const double t_end = std::min(t + decision.phase.duration, parameters.controller.horizon);
     const Arrival arrival = advance(decision.phase, t, x, t_end);
     t = arrival.t;
     x = arrival.state;
     if (arrival.cause == Cause::failure) {
-      return outcome_of(Status::integrator_failed, t, x, supervision.memory(), goal);
+      return outcome_of(Status::integrator_failed, t, x, supervision.memory(), contraction, goal);
     }
+    contraction.finish(x, goal);
   }
 }
 

@@ -4,17 +4,21 @@
 
 namespace steerstat {
 
-CvodeRunner::CvodeRunner(double tolerance) : integrator_(tolerance) {}
+CvodeRunner::CvodeRunner(double tolerance, bool metrics) : integrator_(tolerance), metrics_(metrics) {}
 
 void CvodeRunner::run(TrialStream& stream) {
   std::uint64_t index = 0;
   TrialParameters parameters;
   while (stream.next(index, parameters)) {
     const ClosedLoop<double> loop = closed_loop_of(parameters);
-    stream.finished(index,
-                    run_course(parameters, [&](const Phase& phase, double t, const State<double>& x, double t_end) {
-                      return integrator_.advance(loop, phase, t, x, t_end);
-                    }));
+    Exertion exertion = exertion_at(parameters.start, parameters.goal.q1);
+    Exertion* measured = metrics_ ? &exertion : nullptr;
+    TrialOutcome outcome =
+        run_course(parameters, [&](const Phase& phase, double t, const State<double>& x, double t_end) {
+          return integrator_.advance(loop, phase, t, x, t_end, nullptr, measured);
+        });
+    if (metrics_) report_exertion(exertion, outcome);
+    stream.finished(index, outcome);
   }
 }
 

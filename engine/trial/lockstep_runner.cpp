@@ -15,10 +15,19 @@ bool LockstepRunner::take_next(TrialStream& stream, int lane) {
   Seat& seat = seats_[static_cast<std::size_t>(lane)];
   while (stream.next(seat.index, seat.parameters)) {
     seat.supervision = Supervision{};
+    seat.contraction = ContractionRecord{};
     engine_->seat(lane, closed_loop_of(seat.parameters));
     if (carry_on(stream, lane, 0.0, seat.parameters.start)) return true;
   }
   return false;
+}
+
+/// Reports the outcome of a lane's trial, which ended in state x at time t.
+void LockstepRunner::report(TrialStream& stream, int lane, Status status, double t, const State<double>& x) {
+  const Seat& seat = seats_[static_cast<std::size_t>(lane)];
+  const TrialOutcome outcome =
+      outcome_of(status, t, x, seat.supervision.memory(), seat.contraction, seat.parameters.goal);
+  stream.finished(seat.index, outcome);
 }
 
 /// Decides at the end of a lane's phase. @return whether the trial goes on; else its outcome has been reported
@@ -27,9 +36,10 @@ bool LockstepRunner::carry_on(TrialStream& stream, int lane, double t, const Sta
   const TrialParameters& parameters = seat.parameters;
   const Decision decision = seat.supervision.decide(parameters, t, x);
   if (decision.outcome) {
-    stream.finished(seat.index, outcome_of(*decision.outcome, t, x, seat.supervision.memory(), parameters.goal));
+    report(stream, lane, *decision.outcome, t, x);
     return false;
   }
+  seat.contraction.start(decision.phase, t, x, parameters.goal, parameters.controller.horizon);
   engine_->start(lane, decision.phase, t, x, std::min(t + decision.phase.duration, parameters.controller.horizon));
   return true;
 }
@@ -45,13 +55,13 @@ void LockstepRunner::run(TrialStream& stream) {
   while (busy != 0) {
     for (std::uint64_t ended = engine_->step(); ended != 0; ended &= ended - 1) {
       const int lane = std::countr_zero(ended);
-      const Seat& seat = seats_[static_cast<std::size_t>(lane)];
+      Seat& seat = seats_[static_cast<std::size_t>(lane)];
       const Arrival arrival = engine_->arrival(lane);
       bool goes_on = false;
       if (arrival.cause == Cause::failure) {
-        stream.finished(seat.index, outcome_of(Status::integrator_failed, arrival.t, arrival.state,
-                                               seat.supervision.memory(), seat.parameters.goal));
+        report(stream, lane, Status::integrator_failed, arrival.t, arrival.state);
       } else {
+        seat.contraction.finish(arrival.state, seat.parameters.goal);
         goes_on = carry_on(stream, lane, arrival.t, arrival.state);
       }
       if (!goes_on && !take_next(stream, lane)) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "integrate/lockstep_engine.hpp"
+#include "trial/contraction_record.hpp"
 #include "trial/runner.hpp"
 #include "trial/supervision.hpp"
 
@@ -27,9 +28,11 @@ class LockstepRunner final : public TrialRunner {
     std::uint64_t index{0};
     TrialParameters parameters{};
     Supervision supervision{};
+    ContractionRecord contraction{};
   };
 
   bool take_next(TrialStream& stream, int lane);
+  void report(TrialStream& stream, int lane, Status status, double t, const State<double>& x);
   bool carry_on(TrialStream& stream, int lane, double t, const State<double>& x);
 
   std::unique_ptr<LockstepEngine> engine_;

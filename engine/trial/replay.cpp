@@ -47,16 +47,19 @@ class PhaseSampler final : public StepObserver {
 };
 
 template <class Integrator>
-Trajectory record(const TrialParameters& parameters, Integrator integrator, double interval) {
+Trajectory record(const TrialParameters& parameters, Integrator integrator, bool metrics, double interval) {
   const ClosedLoop<double> loop = closed_loop_of(parameters);
+  Exertion exertion = exertion_at(parameters.start, parameters.goal.q1);
+  Exertion* measured = metrics ? &exertion : nullptr;
   Trajectory trajectory;
   trajectory.outcome = run_course(parameters, [&](const Phase& phase, double t, const State<double>& x, double t_end) {
     PhaseSampler sampler(loop, phase, t, interval, trajectory.samples);
     sampler.take(t, x);
-    const Arrival arrival = integrator.advance(loop, phase, t, x, t_end, &sampler);
+    const Arrival arrival = integrator.advance(loop, phase, t, x, t_end, &sampler, measured);
     sampler.take(arrival.t, arrival.state);
     return arrival;
   });
+  if (metrics) report_exertion(exertion, trajectory.outcome);
   return trajectory;
 }
 
@@ -66,10 +69,10 @@ Trajectory replay(const TrialParameters& parameters, const IntegratorChoice& cho
   if (!(interval > 0.0)) throw BadUsage("the sampling interval must be positive");
   switch (choice.method) {
     case IntegratorChoice::Method::cvode:
-      return record(parameters, CvodeIntegrator(choice.tolerance), interval);
+      return record(parameters, CvodeIntegrator(choice.tolerance), choice.metrics, interval);
     case IntegratorChoice::Method::lockstep:
       return record(parameters,
-                    LockstepIntegrator(choice.tolerance, best_instruction_set(), 0, loop_kind_of(parameters)),
+                    LockstepIntegrator(choice.tolerance, best_instruction_set(), 0, loop_kind_of(parameters)), false,
                     interval);
   }
   throw RunFailure("unknown integration method");

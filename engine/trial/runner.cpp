@@ -41,7 +41,7 @@ TrialOutcome TrialRunner::run(const TrialParameters& parameters) {
 std::unique_ptr<TrialRunner> make_runner(const IntegratorChoice& integrator, InstructionSet set) {
   switch (integrator.method) {
     case IntegratorChoice::Method::cvode:
-      return std::make_unique<CvodeRunner>(integrator.tolerance);
+      return std::make_unique<CvodeRunner>(integrator.tolerance, integrator.metrics);
     case IntegratorChoice::Method::lockstep:
       return std::make_unique<LockstepRouter>(integrator.tolerance, set);
   }

@@ -17,6 +17,7 @@ struct IntegratorChoice {
 
   Method method{Method::lockstep};
   double tolerance{1e-9};  ///< of a step's local error [m/s, rad/s]; each engine says how it takes it
+  bool metrics{true};      ///< whether effort and peaks are measured; the rest of an outcome is the same bits
 
   friend bool operator==(const IntegratorChoice&, const IntegratorChoice&) = default;
 };

@@ -33,6 +33,17 @@ TRIALS = {
     "q1_dot": ("<f8", "m/s"),
     "q2_dot": ("<f8", "rad/s"),
 }
+METRICS = {
+    "effort": ("<f8", "N^2 s"),
+    "peak_acceleration": ("<f8", "m/s^2"),
+    "peak_force": ("<f8", "N"),
+    "peak_stroke": ("<f8", "m"),
+    "position_contraction_mean": ("<f8", "1"),
+    "position_contraction_worst": ("<f8", "1"),
+    "velocity_contraction_mean": ("<f8", "1"),
+    "velocity_contraction_worst": ("<f8", "1"),
+}
+TRIALS.update(METRICS)
 AUDIT = {name: TRIALS[name] for name in ("index", "status", "cycles", "swings", "settling_time")}
 TRAJECTORY = {
     "t": ("<f8", "s"),
@@ -207,7 +218,8 @@ def check_seal(path):
     equal("seal", content[-82:], seal)
 
 
-def check_statistics(what, found, status, settling_time, cycles, completed=None):
+def check_statistics(what, found, trials, completed=None):
+    status = trials["status"]
     equal(f"{what}: outcomes", found["outcomes"], {name: int(np.sum(status == v)) for name, v in OUTCOMES.items()})
     equal(f"{what}: completed", found["trials"]["completed"], len(status) if completed is None else completed)
     converged = status == 0
@@ -215,7 +227,10 @@ def check_statistics(what, found, status, settling_time, cycles, completed=None)
     equal(f"{what}: estimate", rate["estimate"], float(np.mean(converged)) if len(status) else None)
     if len(status):
         equal(f"{what}: limits", rate["ci_low"] <= rate["estimate"] <= rate["ci_high"], True)
-    for key, sample in (("settling_time", settling_time[converged]), ("cycles", cycles[converged])):
+    samples = {key: trials[key][converged] for key in ("settling_time", "cycles")}
+    samples.update({key: trials[key][np.isfinite(trials[key])] for key in METRICS})
+    for key, sample in samples.items():
+        equal(f"{what}: count of {key}", found[key]["count"], len(sample))
         expected = dict.fromkeys(("mean", "std", "min", "p05", "p50", "p95", "p99", "max"))
         if len(sample):
             expected.update(mean=np.mean(sample), min=np.min(sample), max=np.max(sample))
@@ -229,7 +244,7 @@ def check_statistics(what, found, status, settling_time, cycles, completed=None)
 
 def check_summary(file, spec, path):
     summary = json.load(open(path))
-    trials = {name: file["trials"][name][:] for name in ("status", "settling_time", "cycles", "cell")}
+    trials = {name: file["trials"][name][:] for name in ("status", "settling_time", "cycles", "cell", *METRICS)}
     equal("name", summary["study"]["name"], spec["name"])
     equal("seed", summary["study"]["seed"], spec["sampling"].get("seed", 1))
     equal("spec_sha256", summary["study"]["spec_sha256"], file.attrs["spec_sha256"])
@@ -245,11 +260,11 @@ def check_summary(file, spec, path):
     names, cells = varying_inputs(spec)
     # The statistics of a study of Sobol' indices are those of the first two trials of each row.
     independent = file["trials/index"][:] % trials_a_draw(spec, names) < 2
-    statistics = (trials[k][independent] for k in ("status", "settling_time", "cycles"))
-    check_statistics("all", summary, *statistics, completed=len(independent))
+    independent_trials = {name: values[independent] for name, values in trials.items()}
+    check_statistics("all", summary, independent_trials, completed=len(independent))
     for number, cell in enumerate(summary["cells"]):
         rows = trials["cell"] == number
-        check_statistics(f"cell {number}", cell, *(trials[k][rows] for k in ("status", "settling_time", "cycles")))
+        check_statistics(f"cell {number}", cell, {name: values[rows] for name, values in trials.items()})
         for name, value in cell["sweep"].items():
             equal(f"{name} in cell {number}", set(file["parameters"][name][rows].tolist()) <= {value}, True)
     equal("number of cells", len(summary["cells"]), cells if cells > 1 or summary["cells"] else 0)

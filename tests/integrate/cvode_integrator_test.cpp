@@ -11,6 +11,7 @@ namespace steerstat::testing {
 
 INSTANTIATE_TYPED_TEST_SUITE_P(Cvode, IntegratorMotion, CvodeIntegrator);
 INSTANTIATE_TYPED_TEST_SUITE_P(Cvode, IntegratorGuards, CvodeIntegrator);
+INSTANTIATE_TYPED_TEST_SUITE_P(Cvode, IntegratorExertion, CvodeIntegrator);
 INSTANTIATE_TYPED_TEST_SUITE_P(Cvode, IntegratorImperfections, CvodeIntegrator);
 
 namespace {

@@ -27,13 +27,17 @@ class EveryLane {
   explicit EveryLane(double tolerance) : tolerance_(tolerance) {}
 
   Arrival advance(const ClosedLoop<double>& loop, const Phase& phase, double t, const State<double>& x, double t_end,
-                  StepObserver* observer = nullptr) const {
-    const Arrival first =
-        LockstepIntegrator(tolerance_, best_instruction_set(), 0, kind).advance(loop, phase, t, x, t_end, observer);
+                  StepObserver* observer = nullptr, Exertion* exertion = nullptr) const {
+    const Exertion before = exertion != nullptr ? *exertion : Exertion{};
+    const Arrival first = LockstepIntegrator(tolerance_, best_instruction_set(), 0, kind)
+                              .advance(loop, phase, t, x, t_end, observer, exertion);
     for (const InstructionSet set : supported_sets()) {
       const int lanes = make_lockstep_engine(tolerance_, set, kind)->lanes();
       for (int lane = 0; lane < lanes; ++lane) {
-        const Arrival other = LockstepIntegrator(tolerance_, set, lane, kind).advance(loop, phase, t, x, t_end);
+        Exertion again = before;
+        const Arrival other = LockstepIntegrator(tolerance_, set, lane, kind)
+                                  .advance(loop, phase, t, x, t_end, nullptr, exertion != nullptr ? &again : nullptr);
+        EXPECT_TRUE(exertion == nullptr || again == *exertion) << name_of(set) << " lane " << lane;
         EXPECT_EQ(bits_of(other), bits_of(first)) << name_of(set) << " lane " << lane;
         EXPECT_EQ(other.cause, first.cause);
       }
@@ -52,9 +56,11 @@ using Imperfect = EveryLane<LoopKind::imperfect>;
 
 INSTANTIATE_TYPED_TEST_SUITE_P(Lockstep, IntegratorMotion, Ideal);
 INSTANTIATE_TYPED_TEST_SUITE_P(Lockstep, IntegratorGuards, Ideal);
+INSTANTIATE_TYPED_TEST_SUITE_P(Lockstep, IntegratorExertion, Ideal);
 INSTANTIATE_TYPED_TEST_SUITE_P(ImperfectLockstep, IntegratorMotion, Imperfect);
 INSTANTIATE_TYPED_TEST_SUITE_P(ImperfectLockstep, IntegratorGuards, Imperfect);
 INSTANTIATE_TYPED_TEST_SUITE_P(ImperfectLockstep, IntegratorImperfections, Imperfect);
+INSTANTIATE_TYPED_TEST_SUITE_P(ImperfectLockstep, IntegratorExertion, Imperfect);
 
 namespace {
 

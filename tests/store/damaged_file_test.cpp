@@ -9,6 +9,7 @@
 #include "store/result_file.hpp"
 #include "store/seal.hpp"
 #include "store/whole_file.hpp"
+#include "trial/metric.hpp"
 
 namespace steerstat {
 namespace {
@@ -160,6 +161,24 @@ TEST_F(ForeignFile, MustHaveEveryColumnInFullLength) {
   EXPECT_THAT(complaint(), HasSubstr("q1 has 119 rows"));
   rewrite([&](hid_t file) { replace(file, "swings", std::vector<std::uint32_t>(rows_ + 1)); });
   EXPECT_THAT(complaint(), HasSubstr("swings has 121 rows"));
+}
+
+TEST_F(ForeignFile, FromBeforeThereWereMetricsHasNone) {
+  rewrite([](hid_t file) {
+    for (const char* name : {"effort", "peak_acceleration", "peak_force", "peak_stroke", "position_contraction_mean",
+                             "position_contraction_worst", "velocity_contraction_mean", "velocity_contraction_worst"}) {
+      remove(file, (std::string("trials/") + name).c_str());
+    }
+  });
+  const StoredStudy stored = read_result(path_);
+  for (const TrialOutcome& outcome : stored.result.trials.outcomes) {
+    for (const Metric& metric : metrics()) {
+      const bool older = metric.name == "settling_time" || metric.name == "cycles";
+      EXPECT_TRUE(older || std::isnan(metric.value(outcome))) << metric.name;
+    }
+  }
+  rewrite([&](hid_t file) { replace(file, "effort", std::vector<double>(rows_ - 1), "N^2 s"); });
+  EXPECT_THAT(complaint(), HasSubstr("effort has 119 rows"));
 }
 
 TEST_F(ForeignFile, MustHaveColumnsOfTheRightTypeAndUnits) {

@@ -44,7 +44,16 @@ inline TrialOutcome made_up_outcome(std::mt19937_64& generator) {
   outcome.end_state = {real(generator), real(generator), real(generator), real(generator)};
   outcome.passive_error = std::abs(real(generator));
   outcome.active_error = std::abs(real(generator));
+  outcome.effort = std::abs(real(generator));
+  outcome.peak_acceleration = std::abs(real(generator));
+  outcome.peak_force = std::abs(real(generator));
+  outcome.peak_stroke = std::abs(real(generator));
+  if (outcome.cycles > 0) {
+    outcome.position_contraction = {real(generator), real(generator)};
+    outcome.velocity_contraction = {real(generator), real(generator)};
+  }
   if (outcome.status == Status::diverged) {
+    outcome.effort = outcome.peak_force = no_value;
     outcome.end_state.q2_dot = std::numeric_limits<double>::quiet_NaN();
     outcome.end_state.q1 = std::numeric_limits<double>::infinity();
     outcome.end_state.q2 = -0.0;

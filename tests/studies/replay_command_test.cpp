@@ -136,12 +136,31 @@ TEST_F(Replay, AnEndOtherThanTheStoredOneExitsWithFourAndWritesNothing) {
   EXPECT_EQ(steerstat({"replay", scratch_ / "changed.h5", "--trial", "1"}).exit_code, 0);
 }
 
+TEST_F(Replay, AnEndWithAnotherMetricIsAnotherEndButOneWithoutMetricsIsNot) {
+  StudyResult older = stored_.result;
+  for (TrialOutcome& outcome : older.trials.outcomes) {
+    outcome.effort = outcome.peak_acceleration = outcome.peak_force = outcome.peak_stroke = no_value;
+    outcome.position_contraction = outcome.velocity_contraction = {};
+  }
+  write_result(scratch_ / "older.h5", stored_.study, older);
+  EXPECT_EQ(steerstat({"replay", scratch_ / "older.h5", "--trial", "2"}).exit_code, 0);
+  StudyResult changed = stored_.result;
+  double& ratio = changed.trials.outcomes[2].position_contraction.mean;
+  ASSERT_FALSE(std::isnan(ratio));
+  ratio = std::nextafter(ratio, 10.0);
+  write_result(scratch_ / "changed.h5", stored_.study, changed);
+  EXPECT_EQ(steerstat({"replay", scratch_ / "changed.h5", "--trial", "2"}).exit_code, 4);
+}
+
 TEST_F(Replay, ExportHoldsEveryTrialToTheBit) {
   ASSERT_EQ(steerstat({"export", file_, "-o", scratch_ / "out.csv"}).exit_code, 0);
   const Rows rows = parse_csv(read_file(scratch_ / "out.csv"));
-  EXPECT_THAT(rows[0], ElementsAre("index", "cell", "plant.f2", "initial_state.q1", "controller.contraction.eta1",
-                                   "status", "settling_time", "end_time", "cycles", "swings", "alignments",
-                                   "passive_error", "active_error", "q1", "q2", "q1_dot", "q2_dot"));
+  EXPECT_THAT(rows[0],
+              ElementsAre("index", "cell", "plant.f2", "initial_state.q1", "controller.contraction.eta1", "status",
+                          "settling_time", "end_time", "cycles", "swings", "alignments", "passive_error",
+                          "active_error", "q1", "q2", "q1_dot", "q2_dot", "effort", "peak_acceleration", "peak_force",
+                          "peak_stroke", "position_contraction_mean", "position_contraction_worst",
+                          "velocity_contraction_mean", "velocity_contraction_worst"));
   ASSERT_EQ(rows.size(), 7U);
   for (std::size_t trial = 0; trial < 6; ++trial) {
     const std::vector<std::string>& row = rows[trial + 1];
@@ -169,6 +188,13 @@ TEST_F(Replay, ExportHoldsEveryTrialToTheBit) {
     exported.passive_error = number(row[11]);
     exported.active_error = number(row[12]);
     exported.end_state = {number(row[13]), number(row[14]), number(row[15]), number(row[16])};
+    const auto metric = [&](std::size_t column) { return row[column].empty() ? no_value : number(row[column]); };
+    exported.effort = metric(17);
+    exported.peak_acceleration = metric(18);
+    exported.peak_force = metric(19);
+    exported.peak_stroke = metric(20);
+    exported.position_contraction = {metric(21), metric(22)};
+    exported.velocity_contraction = {metric(23), metric(24)};
     EXPECT_TRUE(same_bits(exported, stored)) << "trial " << trial;
   }
 }

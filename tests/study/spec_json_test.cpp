@@ -226,6 +226,14 @@ TEST(SpecSha256, IsTheDigestOfTheCanonicalSpec) {
   EXPECT_EQ(spec_sha256(study_of("{}")), "dd59846f812b88ef8071d1a34292f87a2d158db6b2e8245574d440be1a8d0022");
 }
 
+TEST(SpecSha256, IsTheSameWhereMetricsAreMeasuredAsByDefault) {
+  EXPECT_EQ(canonical_spec(study_of(R"({"metrics": true})")), canonical_empty_spec);
+  const Study without = study_of(R"({"metrics": false})");
+  EXPECT_FALSE(without.integrator.metrics);
+  EXPECT_NE(spec_sha256(without), spec_sha256(study_of("{}")));
+  EXPECT_EQ(study_of(canonical_spec(without)), without);
+}
+
 TEST(StudyId, IsSixteenHexadecimalDigitsThatTellStudiesApart) {
   const std::set<std::string> ids{study_id(study_of("{}")), study_id(study_of(R"({"sampling": {"seed": 2}})")),
                                   study_id(study_of(R"({"name": "other"})")),
