@@ -5,6 +5,7 @@
 #include <numeric>
 #include <set>
 
+#include "report/metric_table.hpp"
 #include "report/readable.hpp"
 #include "report/summary.hpp"
 #include "report/text_table.hpp"
@@ -116,33 +117,6 @@ std::string outcome_text(const TrialStatistics& all, bool colour) {
   return table.text(colour);
 }
 
-std::string sample_text(const TrialStatistics& all, bool colour) {
-  TextTable table({{"Converged trials", Align::left},
-                   {"min"},
-                   {"5 %"},
-                   {"median"},
-                   {"95 %"},
-                   {"99 %"},
-                   {"max"},
-                   {"mean"},
-                   {"std"}});
-  const auto add = [&](const char* name, const std::optional<SampleStatistics>& sample, int decimals) {
-    if (!sample) return;
-    std::vector<TextTable::Cell> row{{name}};
-    const auto add_value = [&](double value) { row.push_back({fmt::format("{:.{}f}", value, decimals)}); };
-    for (const double value : {sample->min, sample->p05, sample->p50, sample->p95, sample->p99, sample->max}) {
-      add_value(value);
-    }
-    add_value(sample->mean);
-    sample->std ? add_value(*sample->std) : row.push_back({no_data});
-    row[3].style = bold;
-    table.add_row(std::move(row));
-  };
-  add("settling time [s]", all.of("settling_time"), 2);
-  add("cycles", all.of("cycles"), 1);
-  return table.text(colour);
-}
-
 /// A study of one trial: a table of its quantiles would say one number eight times.
 std::string single_text(const TrialStatistics& all, bool colour) {
   const auto found = std::find(all.outcomes.begin(), all.outcomes.end(), 1U);
@@ -154,7 +128,16 @@ std::string single_text(const TrialStatistics& all, bool colour) {
     text += fmt::format(" after {:.3f} s, {}", settling_time->mean,
                         plural(static_cast<std::uint64_t>(cycles->mean), "cycle"));
   }
-  return text + '\n';
+  text += '\n';
+  const auto& effort = all.of("effort");
+  const auto& acceleration = all.of("peak_acceleration");
+  const auto& force = all.of("peak_force");
+  const auto& stroke = all.of("peak_stroke");
+  if (effort && acceleration && force && stroke) {
+    text += fmt::format("  effort {:.4g} N² s, at most {:.4g} m/s², {:.4g} N and {:.4g} m from the goal\n",
+                        effort->mean, acceleration->mean, force->mean, stroke->mean);
+  }
+  return text;
 }
 
 /// The last `parts` dotted parts of a name.
@@ -294,7 +277,7 @@ std::string summary_text(const Summary& summary, bool colour) {
                      faint, colour);
     }
     if (summary.all.completed > 0) text += '\n' + outcome_text(summary.all, colour);
-    if (summary.all.of("settling_time")) text += '\n' + sample_text(summary.all, colour);
+    if (const std::string tables = metric_tables(summary.all, colour); !tables.empty()) text += '\n' + tables;
     if (!summary.cells.empty()) text += '\n' + cells_text(summary.cells, summary.intervals.level, colour);
   }
   if (summary.stop && summary.stop->report.reason) text += '\n' + stop_text(summary, colour);

@@ -25,6 +25,16 @@ inline TrialStatistics made_up_statistics(std::array<std::uint64_t, status_names
   }
   statistics.metrics[metric_index("settling_time")] = describe(times);
   statistics.metrics[metric_index("cycles")] = describe(cycles);
+  std::vector<double> ratios;
+  for (const double time : times) ratios.push_back(1e-4 * time);
+  std::vector<double> efforts;
+  for (std::uint64_t i = 1; i <= statistics.completed; ++i) efforts.push_back(0.5 * static_cast<double>(i));
+  for (const char* metric : {"effort", "peak_acceleration", "peak_force", "peak_stroke"}) {
+    statistics.metrics[metric_index(metric)] = describe(efforts);
+  }
+  for (const char* metric : {"position_contraction_mean", "velocity_contraction_worst"}) {
+    statistics.metrics[metric_index(metric)] = describe(ratios);
+  }
   return statistics;
 }
 

@@ -29,6 +29,10 @@ TEST(SummaryText, TellsWhatAPersonAsksFirst) {
   EXPECT_THAT(text, HasSubstr("  timeout               590  29.50 %  ██████"));
   EXPECT_THAT(text, HasSubstr("  integrator_failed       0        –\n"));
   EXPECT_THAT(text, HasSubstr("settling time [s]  10.00  711.00  7020.00"));
+  EXPECT_THAT(text, HasSubstr("effort [N² s]         0.5  50.48   500.2   950   990  1000  500.2  288.7\n"));
+  EXPECT_THAT(text, HasSubstr("peak |q1 - goal| [m]  0.5"));
+  EXPECT_THAT(text, HasSubstr("\n  position, mean      0.0010  0.0711  0.7020"));
+  EXPECT_THAT(text, Not(HasSubstr("position, worst"))) << "no trial has it";
   EXPECT_THAT(text, HasSubstr("2,000 trials in 4.0 s on 2 threads with avx512: 500 trials/s"));
   EXPECT_THAT(text, Not(HasSubstr("Incomplete")));
 }
@@ -119,6 +123,8 @@ TEST(SummaryText, OfOneTrialIsOneSentence) {
   EXPECT_THAT(summary_text(made_up_summary({1, 0, 0, 0, 0}), false),
               AllOf(HasSubstr("converged after 10.000 s, 1 cycle\n"), Not(HasSubstr("interval"))));
   EXPECT_THAT(summary_text(made_up_summary({0, 0, 1, 0, 0}), false), HasSubstr("  singular\n"));
+  EXPECT_THAT(summary_text(made_up_summary({1, 0, 0, 0, 0}), false),
+              HasSubstr("  effort 0.5 N² s, at most 0.5 m/s², 0.5 N and 0.5 m from the goal\n"));
 }
 
 TEST(SummaryText, HasNoSettlingTimesWhereNoTrialConverged) {

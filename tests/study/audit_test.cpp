@@ -64,7 +64,7 @@ TEST(RowsToAudit, ArePairsOfFiveEachAsOftenAsTheOthers) {
 TEST(Auditor, IsSundialsAtAHundredthOfTheToleranceButNotBelowTheLeast) {
   constexpr auto cvode = IntegratorChoice::Method::cvode;
   for (const auto method : {IntegratorChoice::Method::lockstep, cvode}) {
-    EXPECT_EQ(auditor_of({method, 1e-9}), (IntegratorChoice{cvode, 1e-9 / 100.0}));
+    EXPECT_EQ(auditor_of({method, 1e-9}), (IntegratorChoice{cvode, 1e-9 / 100.0, false}));
     EXPECT_EQ(auditor_of({method, 1e-10}).tolerance, 1e-12);
     EXPECT_EQ(auditor_of({method, 1e-13}).tolerance, 1e-12);
   }
