@@ -56,7 +56,7 @@ std::vector<TrialOutcome> read_outcomes(hid_t trials, std::size_t rows) {
   for (const auto& column : layout::real_columns) read_field(column);
   for (const auto& column : layout::count_columns) read_field(column);
   for (const auto& column : layout::metric_columns) {
-    if (has_member(group, column.name)) read_field(column);
+    if (has_member(trials, column.name)) read_field(column);
   }
   check_settling_times(trials, outcomes);
   return outcomes;
