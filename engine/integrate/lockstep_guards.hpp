@@ -144,6 +144,14 @@ struct Evidence {
   std::uint32_t uncertain{0};  ///< positive at both ends, and it may have dipped between them
 };
 
+/// How far a position may stray from its chord over a part: its second derivative, the acceleration, is at most
+/// |V1 - V0| / width and what the velocity bends.
+///
+/// @param V0, V1  the velocity at the part's ends, @param slack  how far it may stray from its own chord
+inline Pack position_slack(Pack V0, Pack V1, double slack, double width) {
+  return (abs(V1 - V0) + Pack(8.0 * slack)) * Pack(0.125 * width);
+}
+
 /// The guard of align: sqrt(E^2 + V^2) - radius.
 struct AlignGuard {
   static constexpr int joint = 0;
@@ -157,7 +165,7 @@ struct AlignGuard {
       const Pack limit(radius * radius);
       const Mask out0 = limit < fma(E0, E0, V0 * V0);
       const Mask out1 = limit < fma(E1, E1, V1 * V1);
-      const Mask quiet = chord_avoids(E0, V0, E1, V1, Pack(radius + slack + slack * width));
+      const Mask quiet = chord_avoids(E0, V0, E1, V1, Pack(radius + slack) + position_slack(V0, V1, slack, width));
       evidence.crossing |= bits(out0 & !out1) << i;
       evidence.uncertain |= bits(out0 & out1 & !quiet) << i;
     }
@@ -183,9 +191,11 @@ struct DriftGuard {
   [[nodiscard]] Evidence judge(const Samples& s, double slack, double width) const {
     const double* before = of_velocity ? s.before.velocity : s.before.position;
     const double* after = of_velocity ? s.after.velocity : s.after.position;
-    const Pack allowance(of_velocity ? slack : slack * width);
     Evidence evidence;
     for (int i = 0; i < Samples::parts; i += Pack::lanes) {
+      const Pack allowance =
+          of_velocity ? Pack(slack)
+                      : position_slack(load(s.before.velocity + i), load(s.after.velocity + i), slack, width);
       const Pack g0 = Pack(sign) * load(before + i) - Pack(bound);
       const Pack g1 = Pack(sign) * load(after + i) - Pack(bound);
       const Mask positive0 = Pack(0.0) < g0;

@@ -17,9 +17,7 @@ struct ReadAlignGuard {
       const Pack limit(radius * radius);
       const Mask out0 = limit < fma(E0, E0, V0 * V0);
       const Mask out1 = limit < fma(E1, E1, V1 * V1);
-      // The position's second derivative is the acceleration, at most |V1 - V0| / width and what the velocity bends.
-      const Pack position_slack = (abs(V1 - V0) + Pack(8.0 * slack)) * Pack(width * 0.125);
-      const Mask quiet = chord_avoids(E0, V0, E1, V1, Pack(radius + slack) + position_slack);
+      const Mask quiet = chord_avoids(E0, V0, E1, V1, Pack(radius + slack) + position_slack(V0, V1, slack, width));
       evidence.crossing |= bits(out0 & !out1) << i;
       evidence.uncertain |= bits(out0 & out1 & !quiet) << i;
     }

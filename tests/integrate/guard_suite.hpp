@@ -77,7 +77,7 @@ TYPED_TEST_P(IntegratorGuards, TheFirstOfSeveralGuardsEndsThePhase) {
 TYPED_TEST_P(IntegratorGuards, AShortDipFiresAtItsFirstCrossing) {
   const Oscillator oscillator{0.1, 2.0};
   const double t_end = 6.0;
-  for (const double width : {0.03, 0.06, 0.09}) {
+  for (const double width : {0.01, 0.03, 0.06, 0.09}) {
     for (const int dip : {1, 2, 3}) {
       const double crossing = oscillator.turning_point(dip) - 0.5 * width;
       const double tolerance = oscillator.active_error(crossing);
