@@ -28,6 +28,19 @@ void tell(std::string_view message);
 /// Writes text to standard error as it is.
 void tell_raw(std::string_view text);
 
+/// Does one of several things of which each should be tried: a failure is told, not thrown.
+/// @return whether it was done
+template <class Action>
+bool attempt(const Action& action) {
+  try {
+    action();
+    return true;
+  } catch (const RunFailure& failure) {
+    tell(failure.what());
+    return false;
+  }
+}
+
 /// Replaces the file at `path` whole or not at all, as write_whole_file() does. @throws RunFailure
 void write_text(const std::filesystem::path& path, std::string_view text);
 

@@ -29,8 +29,9 @@ constexpr const char* epilogue = R"(Examples:
   steerstat export result.h5 -o trials.csv       every trial as a row
   steerstat compare a.h5 b.h5                    two studies on the same draws, trial by trial
 
-Exit codes: 0 done, 2 bad usage or bad spec (nothing is written), 4 the run failed (I/O, a corrupt file),
-130 interrupted, with what was finished kept. COMMAND --help tells more.)";
+Exit codes: 0 done and every gate passed, 1 a gate failed, 2 bad usage or bad spec (nothing is written), 3 a gate was
+inconclusive and none failed, 4 the run failed (I/O, a corrupt file), 130 interrupted, with what was finished kept.
+COMMAND --help tells more.)";
 
 std::string version() {
   return fmt::format("steerstat {}\nbuilt with {} ({}), HDF5 {}, SUNDIALS {}, oneTBB {}\n{}", engine_version(),

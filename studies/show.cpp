@@ -12,6 +12,7 @@
 #include "report/readable.hpp"
 #include "report/sensitivity.hpp"
 #include "report/summary.hpp"
+#include "report_files.hpp"
 #include "store/result_file.hpp"
 #include "study/nearest.hpp"
 #include "study/spec_json.hpp"
@@ -19,7 +20,11 @@
 namespace steerstat {
 namespace {
 
-constexpr const char* epilogue = R"(Examples:
+constexpr const char* epilogue =
+    R"(The gates are judged again from the trials, and shown; the exit code does not depend on them. A baseline is not
+stored with the trials, so its verdict is not among them.
+
+Examples:
   steerstat show result.h5
   steerstat show result.h5 --json | jq .success_rate
   steerstat show result.h5 --sensitivity --metric success --metric peak_force
@@ -33,6 +38,7 @@ struct Request {
   bool json{false};
   bool sensitivity{false};
   std::vector<std::string> metrics;
+  ReportFiles reports;
 };
 
 std::vector<Metric> chosen_outputs(const std::vector<std::string>& names) {
@@ -61,16 +67,24 @@ void show_sensitivity(const Request& request, const StoredStudy& stored, std::sp
   print(request.json ? sensitivity_json(report) : sensitivity_text(report, wants_colour(StandardStream::output)));
 }
 
-void show(const Request& request) {
+ExitCode show(const Request& request) {
   if (!request.metrics.empty() && !request.sensitivity) {
     throw BadUsage("--metric chooses what --sensitivity is of; add --sensitivity");
   }
   const auto outputs =
       chosen_outputs(request.metrics.empty() ? std::vector<std::string>{"success", "settling_time"} : request.metrics);
+  if (request.sensitivity && !request.reports.named().empty()) {
+    throw BadUsage(request.reports.named().front().option + " writes what the summary says; leave --sensitivity out");
+  }
+  check_outputs(request.reports.named(), {{"the result file", request.file}});
   const StoredStudy stored = read_result(request.file);
-  if (request.sensitivity) return show_sensitivity(request, stored, outputs);
+  if (request.sensitivity) {
+    show_sensitivity(request, stored, outputs);
+    return ExitCode::done;
+  }
   const Summary summary = summarise(stored.study, stored.result);
   print(request.json ? summary_json(summary) : summary_text(summary, wants_colour(StandardStream::output)));
+  return request.reports.write(summary) ? ExitCode::done : ExitCode::run_failed;
 }
 
 }  // namespace
@@ -87,11 +101,9 @@ void add_show(CLI::App& program, ExitCode& exit_code) {
       ->type_name("NAME")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  request->reports.add_options(*command);
   command->footer(epilogue);
-  command->callback([request, &exit_code] {
-    show(*request);
-    exit_code = ExitCode::done;
-  });
+  command->callback([request, &exit_code] { exit_code = show(*request); });
 }
 
 }  // namespace steerstat

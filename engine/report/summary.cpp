@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "core/version.hpp"
+#include "report/gates.hpp"
+#include "report/readable.hpp"
 #include "study/plan.hpp"
 #include "study/spec_json.hpp"
 #include "trial/metric.hpp"
@@ -77,6 +79,13 @@ std::optional<AuditStatistics> summarise_audit(const Audit& audit, const TrialTa
 
 }  // namespace
 
+std::string shortfall_of(const Summary& summary) {
+  const bool ran_out = summary.stop && summary.stop->report.reason == StopReason::max_trials;
+  if (summary.complete) return ran_out ? "the trials ran out before the precision was reached" : "";
+  return "only " + readable_count(summary.completed) + " of " + readable_count(summary.requested) +
+         " trials have finished";
+}
+
 Summary summarise(const Study& study, const StudyResult& result) {
   const Plan plan(study);
   Tally all;
@@ -87,6 +96,7 @@ Summary summarise(const Study& study, const StudyResult& result) {
   summary.id = study_id(study);
   summary.name = study.name;
   summary.spec_sha256 = spec_sha256(study);
+  summary.population_sha256 = population_sha256(study);
   summary.engine_version = engine_version();
   summary.seed = study.sampling.seed;
   summary.complete = result.complete;
@@ -97,6 +107,7 @@ Summary summarise(const Study& study, const StudyResult& result) {
   summary.cells = summarise_cells(plan, study.intervals, result.trials);
   summary.sensitivity = sobol_sensitivity(study, plan, result.trials);
   if (const auto report = watched(study, result.trials)) summary.stop = {*study.stop, *report};
+  summary.gates = judge_gates(study, plan, result.trials, summary);
   summary.audit = summarise_audit(result.audit, result.trials);
   summary.wall_s = result.wall_s;
   summary.threads = result.threads;

@@ -10,7 +10,9 @@
 #include "core/instruction_set.hpp"
 #include "core/status.hpp"
 #include "report/sensitivity.hpp"
+#include "report/verdict.hpp"
 #include "statistics/proportion.hpp"
+#include "statistics/proportion_drop.hpp"
 #include "statistics/sample.hpp"
 #include "study/run.hpp"
 #include "study/study.hpp"
@@ -44,9 +46,19 @@ struct AuditStatistics {
   double tolerance{0.0};                               ///< of the reference integrator
 };
 
+/// How the success rate compares with that of an earlier summary.
+struct BaselineComparison {
+  std::string id, name, engine_version;  ///< of the baseline
+  std::uint64_t seed{0};
+  ProportionCount converged{};
+  BaselineTest test{};
+  std::optional<ProportionDrop> drop;     ///< from the baseline to here; nothing without trials
+  std::optional<double> detectable_drop;  ///< the least that this many trials show with the test's power
+};
+
 /// A study's statistics: INTERFACE's summary object.
 struct Summary {
-  std::string id, name, spec_sha256, engine_version;
+  std::string id, name, spec_sha256, population_sha256, engine_version;
   std::uint64_t seed{0};
   bool complete{false};
   std::uint64_t requested{0};
@@ -64,6 +76,8 @@ struct Summary {
   };
   std::optional<Stop> stop;                     ///< where the study has a rule
   std::optional<SobolSensitivity> sensitivity;  ///< of sobol_indices sampling
+  std::vector<GateVerdict> gates;               ///< in the spec's order, the baseline's last
+  std::optional<BaselineComparison> baseline;   ///< where the run was held against one
   std::optional<AuditStatistics> audit;         ///< nothing where no trial was audited
   double wall_s{0.0};
   unsigned threads{0};
@@ -73,6 +87,9 @@ struct Summary {
 /// Summarises finished trials. The same trials give the same bits, in whatever order and on however many threads they
 /// ran; `wall_s` and `threads` are the run's own.
 Summary summarise(const Study& study, const StudyResult& result);
+
+/// What a summary's study is short of, "only 20 of 100 trials have finished"; "" where it is whole.
+std::string shortfall_of(const Summary& summary);
 
 /// The summary as JSON (schemas/summary.schema.json), indented, ending in a newline. Every key is always there;
 /// statistics without data are null.

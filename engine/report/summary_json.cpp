@@ -46,12 +46,18 @@ void append_statistics(Json& json, std::uint64_t requested, std::uint64_t comple
   }
 }
 
+/// By name; null for no sweep.
+Json sweep_json(const std::vector<Plan::SweptValue>& sweep) {
+  Json json;
+  for (const Plan::SweptValue& swept : sweep) json[swept.name] = swept.value;
+  return json;
+}
+
 Json cells_json(const Summary& summary) {
   Json cells = Json::array();
   for (const Summary::Cell& cell : summary.cells) {
     Json json;
-    json["sweep"] = Json::object();
-    for (const Plan::SweptValue& swept : cell.sweep) json["sweep"][swept.name] = swept.value;
+    json["sweep"] = sweep_json(cell.sweep);
     append_statistics(json, summary.requested / summary.cells.size(), cell.statistics.completed, summary.intervals,
                       cell.statistics);
     cells.push_back(std::move(json));
@@ -85,6 +91,40 @@ Json stop_json(const Summary& summary) {
   return json;
 }
 
+Json gates_json(const std::vector<GateVerdict>& gates) {
+  Json array = Json::array();
+  for (const GateVerdict& gate : gates) {
+    array.push_back({{"metric", gate.metric},
+                     {"expr", gate.expr},
+                     {"cell", sweep_json(gate.cell)},
+                     {"value", number_or_null(gate.value)},
+                     {"ci_low", number_or_null(gate.interval.low)},
+                     {"ci_high", number_or_null(gate.interval.high)},
+                     {"verdict", name_of(gate.verdict)},
+                     {"reason", gate.reason}});
+  }
+  return array;
+}
+
+Json baseline_json(const std::optional<BaselineComparison>& baseline) {
+  if (!baseline) return nullptr;
+  Json json = {{"id", baseline->id},
+               {"name", baseline->name},
+               {"engine_version", baseline->engine_version},
+               {"seed", baseline->seed},
+               {"trials", baseline->converged.trials},
+               {"converged", baseline->converged.successes},
+               {"level", baseline->test.level},
+               {"power", baseline->test.power},
+               {"margin", baseline->test.margin},
+               {"drop", nullptr},
+               {"detectable_drop", number_or_null(baseline->detectable_drop)}};
+  if (const auto& drop = baseline->drop) {
+    json["drop"] = {{"estimate", drop->estimate}, {"low", drop->low}, {"high", drop->high}};
+  }
+  return json;
+}
+
 Json audit_json(const std::optional<AuditStatistics>& audit) {
   if (!audit) return nullptr;
   Json json = {{"trials", audit->trials}, {"agree", audit->agree}, {"disagree", audit->disagree}};
@@ -113,6 +153,7 @@ std::string summary_json(const Summary& summary) {
   json["study"] = {{"id", summary.id},
                    {"name", summary.name},
                    {"spec_sha256", summary.spec_sha256},
+                   {"population_sha256", summary.population_sha256},
                    {"engine_version", summary.engine_version},
                    {"seed", summary.seed}};
   json["complete"] = summary.complete;
@@ -120,7 +161,8 @@ std::string summary_json(const Summary& summary) {
   json["stop"] = stop_json(summary);
   json["cells"] = cells_json(summary);
   json["sensitivity"] = sobol_json(summary.sensitivity);
-  json["gates"] = Json::array();
+  json["gates"] = gates_json(summary.gates);
+  json["baseline"] = baseline_json(summary.baseline);
   json["audit"] = audit_json(summary.audit);
   json["performance"] = performance_json(summary);
   // A name is the user's: were it not UTF-8, it must not cost the summary.

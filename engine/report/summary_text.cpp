@@ -5,6 +5,7 @@
 #include <numeric>
 #include <set>
 
+#include "report/gates_text.hpp"
 #include "report/metric_table.hpp"
 #include "report/readable.hpp"
 #include "report/summary.hpp"
@@ -282,6 +283,7 @@ std::string summary_text(const Summary& summary, bool colour) {
   }
   if (summary.stop && summary.stop->report.reason) text += '\n' + stop_text(summary, colour);
   if (summary.sensitivity && summary.completed > 0) text += '\n' + sobol_text(*summary.sensitivity, colour);
+  if (!summary.gates.empty()) text += '\n' + gates_text(summary.gates, colour);
   if (summary.audit) text += '\n' + audit_text(*summary.audit, colour);
   return text + '\n' + performance_text(summary, colour);
 }

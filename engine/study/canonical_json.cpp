@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "study/gates_json.hpp"
 #include "study/input_json.hpp"
 #include "study/inputs.hpp"
 #include "study/intervals_json.hpp"
@@ -94,9 +95,7 @@ void place(const Input& input, Canonical& spec) {
   (*object)[std::string(name)] = encode_input(input.value);
 }
 
-}  // namespace
-
-std::string canonical_spec(const Study& study) {
+Canonical encode_study(const Study& study) {
   Canonical spec = Canonical::object();
   spec["name"] = study.name;
   spec["nominal"] = encode_nominal(study.nominal);
@@ -120,6 +119,33 @@ std::string canonical_spec(const Study& study) {
   }
   if (study.stop) spec["stop"] = encode_stop(*study.stop);
   if (!study.integrator.metrics) spec["metrics"] = false;
+  if (!study.gates.empty()) spec["gates"] = encode_gates(study.gates);
+  if (study.baseline_test != BaselineTest{}) spec["baseline"] = encode_baseline_test(study.baseline_test);
+  return spec;
+}
+
+}  // namespace
+
+std::string canonical_spec(const Study& study) {
+  std::string text;
+  write(encode_study(study), text);
+  return text;
+}
+
+std::string canonical_population(const Study& study) {
+  Canonical spec = encode_study(study);
+  const Canonical convergence = spec["controller"]["convergence"];
+  for (const char* key :
+       {"name", "controller", "integrator", "retain", "audit", "stop", "intervals", "metrics", "gates", "baseline"}) {
+    spec.erase(key);
+  }
+  spec["controller"]["convergence"] = convergence;  // what counts as success
+  Canonical& sampling = spec["sampling"];
+  sampling.erase("seed");
+  if (study.sampling.method != SamplingMethod::explicit_trials) {
+    sampling.erase("method");
+    sampling.erase("trials");
+  }
   std::string text;
   write(spec, text);
   return text;

@@ -28,6 +28,10 @@ std::string spec_sha256(const Study& study) {
   return sha256(canonical_spec(study));
 }
 
+std::string population_sha256(const Study& study) {
+  return sha256(canonical_population(study));
+}
+
 std::string study_id(const Study& study) {
   return sha256(fmt::format("{}\n{}", engine_version(), canonical_spec(study))).substr(0, 16);
 }

@@ -28,6 +28,9 @@ inline constexpr std::size_t most_precision_goals = 32;
 /// memory, up to half a megabyte a piece.
 inline constexpr std::uint64_t most_trajectories = 1'000;
 
+/// A study has at most this many gates; each may be judged in every cell.
+inline constexpr std::size_t most_gates = 100;
+
 /// A study's name has at most this many characters.
 inline constexpr std::size_t longest_name = 100;
 

@@ -31,7 +31,10 @@ std::vector<std::string_view> places_in_spec() {
                                        "stop.until",
                                        "stop.check_every",
                                        "stop.min_trials",
-                                       "stop.max_trials"};
+                                       "stop.max_trials",
+                                       "baseline.level",
+                                       "baseline.power",
+                                       "baseline.margin"};
   for (const InputDefinition& definition : input_definitions()) places.push_back(definition.name);
   return places;
 }

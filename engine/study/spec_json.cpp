@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/elementary.hpp"
+#include "study/gates_json.hpp"
 #include "study/input_json.hpp"
 #include "study/inputs.hpp"
 #include "study/intervals_json.hpp"
@@ -26,9 +27,6 @@ constexpr Range any{};
 constexpr Range positive{.low = 0.0, .rule = "> 0"};
 constexpr Range integrator_tolerance{
     .low = 1e-14, .high = 1e-2, .includes_low = true, .includes_high = true, .rule = "in [1e-14, 0.01]"};
-
-// Keys of the interface that this version has not got yet.
-constexpr std::array<std::string_view, 1> later_keys{"gates"};
 
 std::size_t characters_in(const std::string& utf8) {
   std::size_t count = 0;
@@ -77,23 +75,19 @@ class Decoder {
     if (const auto metrics = root_.find("metrics")) {
       study_.integrator.metrics = metrics->boolean().value_or(study_.integrator.metrics);
     }
+    if (const auto gates = root_.find("gates")) study_.gates = decode_gates(*gates, study_.inputs, mistaken_);
+    if (const auto baseline = root_.find("baseline")) study_.baseline_test = decode_baseline_test(*baseline);
     check_rules(study_, mistaken_, errors_);
     return study_;
   }
 
  private:
   void refuse_unknown_keys() {
-    static constexpr std::array<std::string_view, 16> known{
-        "name",    "nominal",    "plant",    "initial_state", "goal",   "controller", "actuator",  "sensor",
-        "horizon", "integrator", "sampling", "stop",          "retain", "audit",      "intervals", "metrics"};
-    std::vector<std::string_view> spoken_for(later_keys.begin(), later_keys.end());
-    spoken_for.emplace_back("kind");
+    static constexpr std::array<std::string_view, 18> known{
+        "name",       "nominal",  "plant", "initial_state", "goal",  "controller", "actuator", "sensor", "horizon",
+        "integrator", "sampling", "stop",  "retain",        "audit", "intervals",  "metrics",  "gates",  "baseline"};
+    static constexpr std::array<std::string_view, 1> spoken_for{"kind"};
     root_.refuse_unknown_keys(known, spoken_for);
-    for (const std::string_view key : later_keys) {
-      if (const auto member = root_.find(key)) {
-        member->fail(fmt::format("this version has no \"{}\" (nothing is judged); remove it", key));
-      }
-    }
   }
 
   static void decode_kind(const Reader& reader) {

@@ -19,6 +19,14 @@ Study decode_study(std::string_view text, const std::filesystem::path& directory
 /// back to the same bits, files inlined. decode_study() of it gives the same study.
 std::string canonical_spec(const Study& study);
 
+/// What of canonical_spec() says which trials there may be and when one succeeds: all but the name, the controller
+/// (its convergence tolerances stay), the seed, the number of trials, how they are drawn and computed, and what is done
+/// with them. Success rates of studies that have it in common are of one population, and compare.
+std::string canonical_population(const Study& study);
+
+/// SHA-256 of canonical_population(), 64 hexadecimal digits.
+std::string population_sha256(const Study& study);
+
 /// SHA-256 of canonical_spec(), 64 hexadecimal digits.
 std::string spec_sha256(const Study& study);
 

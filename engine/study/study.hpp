@@ -13,6 +13,7 @@
 #include "robot/plant.hpp"
 #include "sampling/distribution.hpp"
 #include "statistics/proportion.hpp"
+#include "study/gate.hpp"
 #include "study/stop_rule.hpp"
 #include "trial/runner.hpp"
 
@@ -102,6 +103,8 @@ struct Study {
   std::optional<StopRule> stop{};  ///< none: every trial runs
   IntervalChoice intervals{};
   std::uint64_t audited_trials{16};  ///< computed again by the reference integrator; all where there are fewer
+  std::vector<Gate> gates;           ///< what the statistics must show
+  BaselineTest baseline_test{};      ///< how a baseline, where one is given, is tested against
 
   friend bool operator==(const Study&, const Study&) = default;
 };

@@ -1,4 +1,5 @@
-// Writes what the program cannot be made to write at will: results of interrupted runs, every outcome, no trial at all.
+// Writes what the program cannot be made to write at will: results of interrupted runs, every outcome, no trial at all,
+// verdicts on a baseline, a name that no spec may have.
 //
 //   write_contract_samples DIRECTORY
 #include <filesystem>
@@ -6,6 +7,8 @@
 
 #include "../report/sample_comparison.hpp"
 #include "../store/sample_result.hpp"
+#include "report/baseline.hpp"
+#include "report/junit.hpp"
 #include "report/summary.hpp"
 #include "store/result_file.hpp"
 
@@ -54,6 +57,18 @@ int main(int, char** arguments) {
   write(directory, "interrupted", study, interrupted);
 
   write_comparisons(directory, study, every_outcome, interrupted);
+
+  Summary judged = summarise(study, interrupted);
+  Baseline baseline;
+  baseline.converged = {90, 100};
+  judge_against(baseline, {}, judged);
+  std::ofstream(directory / "judged.json") << summary_json(judged);
+
+  judged.name = "control \x01 \x1f, no character \xEF\xBF\xBE, not UTF-8 \xC3(, <markup> & \"quotes\"";
+  for (const Verdict verdict : {Verdict::pass, Verdict::fail, Verdict::inconclusive}) {
+    judged.gates.push_back({"success_rate", "ci_low > 0.5", {}, 0.6, {0.5, 0.7}, verdict, "because ]]> & \t\n so"});
+  }
+  std::ofstream(directory / "judged.xml") << junit_xml(judged);
 
   StudyResult nothing;
   nothing.threads = 1;

@@ -44,6 +44,7 @@ inline Summary made_up_summary(std::array<std::uint64_t, status_names.size()> ou
   summary.id = "0123456789abcdef";
   summary.name = "sample";
   summary.spec_sha256 = std::string(64, 'a');
+  summary.population_sha256 = std::string(64, 'b');
   summary.engine_version = "0.1.0";
   summary.seed = 7;
   summary.complete = true;
