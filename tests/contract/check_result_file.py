@@ -63,6 +63,7 @@ PARAMETER_UNITS = {
     "initial_state.q2": "rad",
     "initial_state.q2_dot": "rad/s",
     "controller.contraction.eta1": "1",
+    "controller.contraction.eta2": "1",
 }
 
 
