@@ -36,6 +36,7 @@ std::string objection(const StoredStudy& stored, const Study& study, const fs::p
     return fmt::format("{} is of engine version {} and this is {}, whose trials may differ in their bits",
                        place.string(), stored.engine_version, engine_version());
   }
+  if (!stored.has_metrics) return fmt::format("{} is of a program that measured no metrics", place.string());
   if (continues(study, stored.study)) return "";
   if (continues(stored.study, study)) {
     return fmt::format("{} is of {} trials and the spec asks for {} (a study can be extended, not cut)", place.string(),

@@ -133,6 +133,7 @@ StoredStudy read_bytes(std::span<const std::byte> bytes) {
   stored.engine_version = hdf5::read_text_attribute(file.id(), "engine_version");
   const Plan plan(stored.study);
   stored.result.trials = read_trials(file.id(), plan);
+  stored.has_metrics = hdf5::has_every_outcome(hdf5::open_group(file.id(), "trials").id());
   stored.parameters = read_parameters(file.id(), plan, stored.result.trials.index.size());
   stored.result.audit = read_audit(file.id(), stored.result.trials);
   stored.result.complete = hdf5::read_flag_attribute(file.id(), "complete");

@@ -15,6 +15,7 @@ struct StoredStudy {
   std::string created;                          ///< UTC, ISO 8601
   std::string engine_version;                   ///< of the program that wrote it
   StudyResult result;                           ///< trajectories are not read back
+  bool has_metrics{true};                       ///< not in files of programs that measured none
   std::vector<std::vector<double>> parameters;  ///< (varying x rows), in the order of Plan::varying()
 };
 

@@ -72,6 +72,7 @@ Shard read_bytes(std::span<const std::byte> bytes, const ShardOrigin& origin, st
     throw Problem("/trials/index is not one of consecutive trials");
   }
   shard.begin = index.front();
+  if (!hdf5::has_every_outcome(group.id())) throw Problem("it lacks metrics");
   shard.outcomes = hdf5::read_outcomes(group.id(), index.size());
   return shard;
 }

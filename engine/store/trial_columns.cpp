@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <string>
 
 #include "store/column.hpp"
@@ -43,6 +44,11 @@ void write_outcomes(hid_t trials, std::span<const TrialOutcome> outcomes) {
   for (const auto& column : layout::real_columns) write_field(column);
   for (const auto& column : layout::count_columns) write_field(column);
   for (const auto& column : layout::metric_columns) write_field(column);
+}
+
+bool has_every_outcome(hid_t trials) {
+  return std::all_of(std::begin(layout::metric_columns), std::end(layout::metric_columns),
+                     [&](const auto& column) { return has_member(trials, column.name); });
 }
 
 std::vector<TrialOutcome> read_outcomes(hid_t trials, std::size_t rows) {

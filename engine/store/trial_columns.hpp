@@ -15,7 +15,10 @@ namespace steerstat::hdf5 {
 /// Writes every dataset that follows from the outcomes alone.
 void write_outcomes(hid_t trials, std::span<const TrialOutcome> outcomes);
 
-/// Reads back what write_outcomes() wrote, the same bits. @throws Problem
+/// Whether all that write_outcomes() writes is there: not in files of programs that measured less. @throws Problem
+bool has_every_outcome(hid_t trials);
+
+/// Reads back what write_outcomes() wrote, the same bits; what is missing reads as no_value. @throws Problem
 std::vector<TrialOutcome> read_outcomes(hid_t trials, std::size_t rows);
 
 /// Reads `status` of a group. @param place  the group's name, for messages @throws Problem

@@ -191,7 +191,12 @@ void require_writable(const fs::path& path) {
     throw RunFailure(
         fmt::format("cannot write {} (there is no directory {}); create it", path.string(), directory.string()));
   }
-  // Only a try tells: permissions, read-only file systems, quotas and the length of the name all count.
+  // Only a try tells: permissions, read-only file systems and quotas all count. Where the file system allows, by a file
+  // without a name, which leaves nothing behind when the process is killed.
+  if (const Descriptor nameless(::open(directory.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666));
+      nameless.is_open()) {
+    return;
+  }
   const fs::path temporary = temporary_in(directory);
   Descriptor file = create(temporary);
   if (!file.is_open()) fail("write", path, errno);

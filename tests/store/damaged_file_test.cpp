@@ -164,6 +164,7 @@ TEST_F(ForeignFile, MustHaveEveryColumnInFullLength) {
 }
 
 TEST_F(ForeignFile, FromBeforeThereWereMetricsHasNone) {
+  EXPECT_TRUE(read_result(path_).has_metrics);
   rewrite([](hid_t file) {
     for (const char* name : {"effort", "peak_acceleration", "peak_force", "peak_stroke", "position_contraction_mean",
                              "position_contraction_worst", "velocity_contraction_mean", "velocity_contraction_worst"}) {
@@ -171,6 +172,7 @@ TEST_F(ForeignFile, FromBeforeThereWereMetricsHasNone) {
     }
   });
   const StoredStudy stored = read_result(path_);
+  EXPECT_FALSE(stored.has_metrics);
   for (const TrialOutcome& outcome : stored.result.trials.outcomes) {
     for (const Metric& metric : metrics()) {
       const bool older = metric.name == "settling_time" || metric.name == "cycles";
