@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace steerstat {
@@ -24,6 +26,18 @@ Real cycle_acceleration(const Real& amplitude, const Real& period, const Real& t
   Real sum(cycle_coefficients[4]);
   for (int i = 3; i >= 0; --i) sum = sum * lambda + Real(cycle_coefficients[static_cast<std::size_t>(i)]);
   return amplitude / (period * period) * (sum * lambda);
+}
+
+/// Where (11)'s polynomial is level in the first half of [0, 1]; in the second it repeats itself with the other sign.
+inline constexpr std::array<double, 2> cycle_summits{0.06943184420297371239, 0.33000947820757186760};
+
+/// The largest |a| of (11) from a cycle's start to t [m/s^2].
+inline double cycle_peak_acceleration(double amplitude, double period, double t) {
+  double peak = std::abs(cycle_acceleration(amplitude, period, t));
+  for (const double summit : cycle_summits) {
+    if (summit * period < t) peak = std::max(peak, std::abs(cycle_acceleration(amplitude, period, summit * period)));
+  }
+  return peak;
 }
 
 }  // namespace steerstat

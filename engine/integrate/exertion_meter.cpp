@@ -85,7 +85,7 @@ ExertionMeter::Load ExertionMeter::load(double t, const State<double>& x) const 
 /// Into how many equal parts a step is cut, so that a few places tell the force in each: an integrator may stride over
 /// turns of link 2, or over a whole cycle, where its own error does not grow by it.
 int ExertionMeter::parts(double width, const State<double>& before, const State<double>& after) const {
-  constexpr double turn = 0.25;     // [rad]
+  constexpr double turn = 0.6;      // [rad]
   constexpr double period = 0.05;   // of a cycle
   constexpr double response = 0.5;  // of an align's time
   constexpr double most = 64.0;     // more are of an align's response that has died down

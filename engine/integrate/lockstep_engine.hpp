@@ -8,6 +8,7 @@
 #include "core/state.hpp"
 #include "integrate/arrival.hpp"
 #include "integrate/closed_loop.hpp"
+#include "integrate/exertion.hpp"
 
 namespace steerstat {
 
@@ -37,8 +38,16 @@ class LockstepEngine {
   /// @return how many lanes, at most 64
   [[nodiscard]] virtual int lanes() const = 0;
 
-  /// Gives a lane to a trial. @param loop  its closed loop; only a LoopKind::imperfect engine takes imperfections
+  /// Gives a lane to a trial, whose exertion is none until it is set. @param loop  its closed loop; only a
+  /// LoopKind::imperfect engine takes imperfections
   virtual void seat(int lane, const ClosedLoop<double>& loop) = 0;
+
+  /// Sets the exertion of a lane's trial up to now. Without effect where the engine measures none.
+  virtual void set_exertion(int lane, const Exertion& exertion);
+
+  /// The exertion of a lane's trial up to its last step's end, or to where its phase ended; none where the engine
+  /// measures none.
+  [[nodiscard]] virtual Exertion exertion(int lane) const;
 
   /// Starts a phase in a seated lane. @param phase  only a LoopKind::imperfect engine takes its offsets, @param t, x
   /// time [s] and state, @param t_end  [s] > t, no phase runs past it
@@ -59,6 +68,16 @@ class LockstepEngine {
   [[nodiscard]] const Counters& counters() const { return counters_; }
 
  protected:
+  /// Adds what a lane's last step asked between from and to [s], by its dense output. (Kernels share no inline function
+  /// with other sources; see core/instruction_set.hpp.)
+  ///
+  /// @param start  of the phase [s]
+  void meter(const ClosedLoop<double>& loop, const Phase& phase, double start, double from, double to, int lane,
+             Exertion& exertion) const;
+
+  /// The largest |a| of a cycle up to t [s] since its start.
+  static double peak_of_cycle(const Phase& cycle, double t);
+
   Counters counters_;
 };
 
@@ -70,7 +89,8 @@ enum class LoopKind : std::uint8_t {
 
 /// @param tolerance  bound on a step's local error in each velocity [m/s, rad/s]; a step aims at an eighth of it
 /// @param set        one that supports(set)
+/// @param measured   whether trials' exertion is measured; their motion is the same bits
 std::unique_ptr<LockstepEngine> make_lockstep_engine(double tolerance, InstructionSet set,
-                                                     LoopKind kind = LoopKind::ideal);
+                                                     LoopKind kind = LoopKind::ideal, bool measured = false);
 
 }  // namespace steerstat

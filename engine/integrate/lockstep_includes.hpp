@@ -15,6 +15,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <type_traits>
 
 #include "control/cycle.hpp"
 #include "core/elementary.hpp"

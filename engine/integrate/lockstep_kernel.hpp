@@ -6,7 +6,9 @@ namespace steerstat::STEERSTAT_ISA {
 /// Packs advanced one after another before anyone looks at what has ended, so that code and branch history stay warm.
 inline constexpr int pack_count = 4;
 
-template <int precision>
+///
+/// @tparam measured  whether trials' exertion is measured
+template <int precision, bool measured>
 class Kernel final : public LockstepEngine {
  public:
   explicit Kernel(double tolerance) : log2_tolerance_(natural_log(margin * tolerance) * elementary::log2_e) {
@@ -31,7 +33,27 @@ class Kernel final : public LockstepEngine {
     lanes.loop.belief[i] = K * nominal.moment / plant.mass;
     lanes.loop.ratio[i] = nominal.moment / nominal.inertia / K;
     lanes.scale[i] = 1.0 / std::abs(K);
+    if constexpr (measured) lanes.force_unit[i] = plant.mass / std::abs(K);
+    set_exertion(lane, Exertion{});
     seated_ |= bit(lane);
+  }
+
+  void set_exertion(int lane, const Exertion& exertion) override {
+    if constexpr (measured) {
+      const auto [lanes, i] = place(lane);
+      lanes.effort[i] = exertion.effort;
+      lanes.peak_acceleration[i] = exertion.peak_acceleration;
+      lanes.peak_force[i] = exertion.peak_force;
+      lanes.peak_stroke[i] = exertion.peak_stroke;
+    }
+  }
+
+  [[nodiscard]] Exertion exertion(int lane) const override {
+    if constexpr (measured) {
+      const auto [lanes, i] = place(lane);
+      return {lanes.effort[i], lanes.peak_acceleration[i], lanes.peak_force[i], lanes.peak_stroke[i]};
+    }
+    return {};
   }
 
   void start(int lane, const Phase& phase, double t, const State<double>& x, double t_end) override {
@@ -57,6 +79,10 @@ class Kernel final : public LockstepEngine {
     const bool cycling = phase.kind == PhaseKind::contraction || phase.kind == PhaseKind::swing;
     const double rate = cycling ? 1.0 / phase.duration : 0.0;
     double factor = cycling ? K * phase.amplitude * rate * rate : 0.0;  // (11)
+    if constexpr (measured) {
+      trial.phase = phase;
+      trial.cycle_bound = std::abs(factor) * lanes.scale[i] * (cycle_peak * (1.0 + 1e-12));
+    }
     for (std::size_t k = 0; k < 5; ++k) {
       factor *= rate;
       lanes.cycle[k][i] = cycle_coefficients[k] * factor;
@@ -106,6 +132,7 @@ class Kernel final : public LockstepEngine {
     for_each_lane(unsound & seated_, [&](int lane) {
       if (!retry(lane)) ended |= bit(lane);
     });
+    if constexpr (measured) measure_step(ended);
     counters_.arrivals += static_cast<std::uint64_t>(std::popcount(ended));
     return ended;
   }
@@ -140,8 +167,12 @@ class Kernel final : public LockstepEngine {
     ClosedLoop<double> loop;
     double K;
     double t_start, t_end;
+    Phase phase;         // where it is measured
+    double cycle_bound;  // of a cycle's |a|; 0 in another phase
     Cause cause;
   };
+
+  using LanesType = std::conditional_t<measured, MeasuredLanes<precision>, Lanes<precision>>;
 
   /// Where a lane's columns are.
   template <class L>
@@ -149,8 +180,8 @@ class Kernel final : public LockstepEngine {
     L& lanes;
     int column;
   };
-  Place<Lanes<precision>> place(int lane) { return {packs_[lane / Pack::lanes], lane % Pack::lanes}; }
-  [[nodiscard]] Place<const Lanes<precision>> place(int lane) const {
+  Place<LanesType> place(int lane) { return {packs_[lane / Pack::lanes], lane % Pack::lanes}; }
+  [[nodiscard]] Place<const LanesType> place(int lane) const {
     return {packs_[lane / Pack::lanes], lane % Pack::lanes};
   }
 
@@ -188,8 +219,39 @@ class Kernel final : public LockstepEngine {
     lanes.q2[i] = second.position;
     lanes.w[i] = second.velocity;
     lanes.t[i] = lanes.t_start[i] + crossing.t;
+    if constexpr (measured) lanes.done[i] = crossing.t;
     trials_[lane].cause = Cause::guard;
     return true;
+  }
+
+  /// Measures every lane's last step. @param ended  lanes whose phase has ended
+  void measure_step(std::uint64_t ended) {
+    for (int pack = 0; pack < pack_count; ++pack) {
+      const Open open = measure(packs_[pack]);
+      const auto seated = static_cast<std::uint32_t>(seated_ >> (pack * Pack::lanes));
+      for_each_lane((open.acceleration | open.force | open.stroke) & seated & ~open.unresolved, [&](int i) {
+        const auto in = [&](std::uint32_t bits) { return (bits >> i & 1) != 0; };
+        reveal(packs_[pack], i, in(open.acceleration), in(open.force), in(open.stroke));
+      });
+      for_each_lane(open.unresolved & seated, [&](int i) { measure_in_parts(pack * Pack::lanes + i); });
+    }
+    for_each_lane(ended, [&](int lane) {
+      const Trial& trial = trials_[lane];
+      const auto [lanes, i] = place(lane);
+      if (trial.cycle_bound <= lanes.peak_acceleration[i]) return;
+      const double peak = peak_of_cycle(trial.phase, lanes.t[i]);
+      lanes.peak_acceleration[i] = std::max(lanes.peak_acceleration[i], peak);
+    });
+  }
+
+  /// Measures a lane's last step where packs cannot.
+  void measure_in_parts(int lane) {
+    const Trial& trial = trials_[lane];
+    const auto [lanes, i] = place(lane);
+    const double from = trial.t_start + lanes.t_start[i];
+    Exertion so_far = exertion(lane);
+    meter(trial.loop, trial.phase, trial.t_start, from, from + lanes.done[i], lane, so_far);
+    set_exertion(lane, so_far);
   }
 
   /// Takes back a step whose coefficients left the range of single precision, for another in a thousandth of its unit.
@@ -204,6 +266,7 @@ class Kernel final : public LockstepEngine {
     lanes.V[i] = first.x[0] * first.rate;
     lanes.w[i] = second.x[0] * second.rate;
     lanes.t[i] = lanes.t_start[i];
+    if constexpr (measured) lanes.done[i] = 0.0;
     set_unit(lane, 0x1p-10 / first.rate);
     if (lanes.unit[i] > 0x1p-50) return true;
     trials_[lane].cause = Cause::failure;
@@ -213,7 +276,7 @@ class Kernel final : public LockstepEngine {
   double log2_tolerance_;
   std::uint64_t seated_{0};
   std::uint64_t armed_{0};  ///< lanes whose guards have all been positive in this phase
-  Lanes<precision> packs_[pack_count]{};
+  LanesType packs_[pack_count]{};
   Trial trials_[pack_count * Pack::lanes]{};
 };
 

@@ -8,6 +8,8 @@
 
 #include "integrate/lockstep_guards.hpp"
 
+#include "integrate/lockstep_exertion.hpp"
+
 #include "integrate/lockstep_kernel.hpp"
 
 #include "integrate/lockstep_imperfect_series.hpp"
@@ -18,11 +20,16 @@
 
 namespace steerstat::STEERSTAT_ISA {
 
+template <bool measured>
 LockstepEngine* make_kernel(double tolerance) {
   // Where single precision's rounding is well below what the tolerance lets a step truncate; see Expansion.
   constexpr double finest_mixed = 5e-10;
-  if (tolerance >= finest_mixed) return new Kernel<mixed>(tolerance);
-  return new Kernel<full>(tolerance);
+  if (tolerance >= finest_mixed) return new Kernel<mixed, measured>(tolerance);
+  return new Kernel<full, measured>(tolerance);
+}
+
+LockstepEngine* make_kernel(double tolerance, bool measured) {
+  return measured ? make_kernel<true>(tolerance) : make_kernel<false>(tolerance);
 }
 
 LockstepEngine* make_imperfect_kernel(double tolerance) {

@@ -36,7 +36,19 @@ struct LaneRows {
 
 template <int precision>
 struct Lanes : LaneRows {
+  static constexpr bool measured = false;
   Expansion<precision> series;  ///< of the last step
+};
+
+/// Lanes whose exertion is measured; see lockstep_exertion.hpp.
+template <int precision>
+struct MeasuredLanes : Lanes<precision> {
+  static constexpr bool measured = true;
+
+  ForceSeries<precision> force;  ///< of the last step
+  Row done;        ///< [s] how much of it was gone: less than h where a guard fired, 0 where it is retried
+  Row force_unit;  ///< (m1 + m2) / |K|, what a unit of the force's series is in N where its unit of time is 1 s
+  Row effort, peak_acceleration, peak_force, peak_stroke;  ///< of Exertion
 };
 
 /// What a step did, a bit a lane.
@@ -187,8 +199,10 @@ Mask proves_quiet(const Lanes<precision>& lanes, Pack E, Pack q2, Pack V, Pack w
 
 /// Advances every lane by one step of its own size. The state, t and the results are written; lanes that `watch` names
 /// hold the state at the step's end, and the search corrects it where a guard fired.
-template <int precision>
-[[gnu::noinline, gnu::flatten]] StepReport advance(Lanes<precision>& lanes, double log2_tolerance) {
+///
+/// @tparam L  Lanes or MeasuredLanes
+template <class L>
+[[gnu::noinline, gnu::flatten]] StepReport advance(L& lanes, double log2_tolerance) {
   const Pack t = load(lanes.t), unit = load(lanes.unit), rate = load(lanes.rate);
   const Pack E0 = load(lanes.E), q20 = load(lanes.q2), V0 = load(lanes.V), w0 = load(lanes.w);
   LawSeries law;
@@ -202,7 +216,11 @@ template <int precision>
   });
   const LoopConstants<Pack> loop{load(lanes.loop.slip) * unit,    load(lanes.loop.mismatch), load(lanes.loop.drive),
                                  load(lanes.loop.damping) * unit, load(lanes.loop.belief),   load(lanes.loop.ratio)};
-  expand(loop, law, E0, q20, V0 * unit, w0 * unit, lanes.series);
+  if constexpr (L::measured) {
+    expand(loop, law, E0, q20, V0 * unit, w0 * unit, lanes.series, lanes.force);
+  } else {
+    expand(loop, law, E0, q20, V0 * unit, w0 * unit, lanes.series);
+  }
   const auto& [series_V, series_w, V_short, w_short] = lanes.series;
 
   // A step may grow eightfold, no more: single precision does not reach further.
@@ -231,6 +249,7 @@ template <int precision>
   store(lanes.t_start, t);
   store(lanes.rate_start, rate);
   store(lanes.h, h);
+  if constexpr (L::measured) store(lanes.done, h);
   store(lanes.bend, widen(bend.velocity));
   store(lanes.E, E);
   store(lanes.q2, q2);

@@ -58,6 +58,18 @@ struct Expansion {
   Single V_short[order + 1], w_short[order + 1];  ///< all, in single precision
 };
 
+/// Taylor coefficients of the force on the first joint about a step's start, as K tau / (m1 + m2). By (1) of the true
+/// plant it is V' - K m2 d2 / (m1 + m2) y' + damping V, so it has a coefficient fewer than the velocities.
+template <int precision>
+struct ForceSeries {
+  static constexpr int wide = precision - 1;
+  Pack F[wide];                                     ///< the first, in double precision
+  Single F_short[order > wide ? order - wide : 1];  ///< the others, in single precision
+};
+
+/// In a ForceSeries' place where nobody asks for the force.
+struct NoForceSeries {};
+
 /// The recurrence for the coefficients, in either precision.
 ///
 /// What an order waits for is V'[n - 1] of the order before: the sums are arranged so that four operations, one after
@@ -160,9 +172,13 @@ struct Recurrence {
 }
 
 /// Expands the closed loop about the state (E, q2, V, w).
-template <int precision>
+///
+/// @param force  a ForceSeries, or a NoForceSeries
+template <int precision, class Force>
 [[gnu::noinline, gnu::flatten]] void expand(const LoopConstants<Pack>& loop, const LawSeries& law, Pack E, Pack q2,
-                                            Pack V, Pack w, Expansion<precision>& out) {
+                                            Pack V, Pack w, Expansion<precision>& out, Force& force) {
+  constexpr bool measured = !std::is_same_v<Force, NoForceSeries>;
+  const Pack pull = loop.mismatch + loop.belief;
   Recurrence<Pack> r;
   const SinCos<Pack> angle = sincos(q2);
   r.s[0] = angle.sin;
@@ -176,7 +192,7 @@ template <int precision>
   r.ratio = loop.ratio;
   r.kp = law.kp;
   r.kd = law.kd;
-  const Pack D = Pack(1.0) / fnma(r.S2[0], loop.mismatch + loop.belief, Pack(1.0));
+  const Pack D = Pack(1.0) / fnma(r.S2[0], pull, Pack(1.0));
   r.by_dy = D * loop.mismatch;
   r.by_Y = r.by_dy;
   r.by_B = r.by_dy * r.s[0];
@@ -185,7 +201,14 @@ template <int precision>
   r.by_y = r.by_G * r.minus_slip;
   r.by_b = fnma(r.by_G * r.S2[0], loop.ratio, D * loop.drive);
   r.by_V = -(D * loop.damping);
-  unroll<0, precision - 1>([&]<int n>() __attribute__((always_inline)) { r.template extend<n>(law.cycle); });
+  Pack by_slope = pull;
+  unroll<0, precision - 1>([&]<int n>() __attribute__((always_inline)) {
+    r.template extend<n>(law.cycle);
+    if constexpr (measured) {
+      force.F[n] = fnma(by_slope, r.y[n + 1], fma(loop.damping, r.V[n], r.dV[n]));
+      by_slope = by_slope + pull;
+    }
+  });
   unroll<0, precision>([&]<int k>() __attribute__((always_inline)) {
     out.V[k] = r.V[k];
     out.w[k] = r.w[k];
@@ -199,12 +222,28 @@ template <int precision>
   } else {
     Recurrence<Single> tail;
     shorten(r, tail);
-    unroll<precision - 1, order>([&]<int n>() __attribute__((always_inline)) { tail.template extend<n>(law.cycle); });
+    const Single pull_short = narrow(pull), damping = narrow(loop.damping);
+    Single by_slope_short = narrow(by_slope);
+    unroll<precision - 1, order>([&]<int n>() __attribute__((always_inline)) {
+      tail.template extend<n>(law.cycle);
+      if constexpr (measured) {
+        force.F_short[n - force.wide] = fnma(by_slope_short, tail.y[n + 1], fma(damping, tail.V[n], tail.dV[n]));
+        by_slope_short = by_slope_short + pull_short;
+      }
+    });
     unroll<0, order + 1>([&]<int k>() __attribute__((always_inline)) {
       out.V_short[k] = tail.V[k];
       out.w_short[k] = tail.w[k];
     });
   }
+}
+
+/// The same where nobody asks for the force.
+template <int precision>
+[[gnu::always_inline]] inline void expand(const LoopConstants<Pack>& loop, const LawSeries& law, Pack E, Pack q2,
+                                          Pack V, Pack w, Expansion<precision>& out) {
+  NoForceSeries nobody_asks;
+  expand(loop, law, E, q2, V, w, out, nobody_asks);
 }
 
 }  // namespace steerstat::STEERSTAT_ISA

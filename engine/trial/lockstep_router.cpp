@@ -85,8 +85,8 @@ class SortedStream final : public TrialStream {
 
 }  // namespace
 
-LockstepRouter::LockstepRouter(double tolerance, InstructionSet set)
-    : tolerance_(tolerance), set_(set), ideal_(tolerance, set) {}
+LockstepRouter::LockstepRouter(double tolerance, InstructionSet set, bool metrics)
+    : tolerance_(tolerance), set_(set), metrics_(metrics), ideal_(tolerance, set, metrics) {}
 
 void LockstepRouter::run(TrialStream& stream) {
   Sorter sorter(stream);
@@ -95,7 +95,7 @@ void LockstepRouter::run(TrialStream& stream) {
     if (*kind == LoopKind::ideal) {
       ideal_.run(trials);
     } else {
-      if (!imperfect_) imperfect_ = std::make_unique<LockstepRunner>(tolerance_, set_, LoopKind::imperfect);
+      if (!imperfect_) imperfect_ = std::make_unique<LockstepRunner>(tolerance_, set_, metrics_, LoopKind::imperfect);
       imperfect_->run(trials);
     }
   }

@@ -11,7 +11,8 @@ namespace steerstat {
 /// parameters say, so that its bits depend on nothing else. Not thread-safe: one router a thread.
 class LockstepRouter final : public TrialRunner {
  public:
-  LockstepRouter(double tolerance, InstructionSet set);
+  /// @param metrics  whether effort and peaks are measured
+  LockstepRouter(double tolerance, InstructionSet set, bool metrics);
 
   using TrialRunner::run;
   void run(TrialStream& stream) override;
@@ -19,6 +20,7 @@ class LockstepRouter final : public TrialRunner {
  private:
   double tolerance_;
   InstructionSet set_;
+  bool metrics_;
   LockstepRunner ideal_;
   std::unique_ptr<LockstepRunner> imperfect_;  // made when first needed
 };

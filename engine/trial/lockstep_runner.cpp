@@ -7,8 +7,10 @@
 
 namespace steerstat {
 
-LockstepRunner::LockstepRunner(double tolerance, InstructionSet set, LoopKind kind)
-    : engine_(make_lockstep_engine(tolerance, set, kind)), seats_(static_cast<std::size_t>(engine_->lanes())) {}
+LockstepRunner::LockstepRunner(double tolerance, InstructionSet set, bool metrics, LoopKind kind)
+    : engine_(make_lockstep_engine(tolerance, set, kind, metrics)),
+      seats_(static_cast<std::size_t>(engine_->lanes())),
+      metrics_(metrics) {}
 
 /// Seats the stream's next trial that has any phase to run. @return false when the stream is dry
 bool LockstepRunner::take_next(TrialStream& stream, int lane) {
@@ -17,6 +19,7 @@ bool LockstepRunner::take_next(TrialStream& stream, int lane) {
     seat.supervision = Supervision{};
     seat.contraction = ContractionRecord{};
     engine_->seat(lane, closed_loop_of(seat.parameters));
+    if (metrics_) engine_->set_exertion(lane, exertion_at(seat.parameters.start, seat.parameters.goal.q1));
     if (carry_on(stream, lane, 0.0, seat.parameters.start)) return true;
   }
   return false;
@@ -25,8 +28,8 @@ bool LockstepRunner::take_next(TrialStream& stream, int lane) {
 /// Reports the outcome of a lane's trial, which ended in state x at time t.
 void LockstepRunner::report(TrialStream& stream, int lane, Status status, double t, const State<double>& x) {
   const Seat& seat = seats_[static_cast<std::size_t>(lane)];
-  const TrialOutcome outcome =
-      outcome_of(status, t, x, seat.supervision.memory(), seat.contraction, seat.parameters.goal);
+  TrialOutcome outcome = outcome_of(status, t, x, seat.supervision.memory(), seat.contraction, seat.parameters.goal);
+  if (metrics_) report_exertion(engine_->exertion(lane), outcome);
   stream.finished(seat.index, outcome);
 }
 

@@ -14,8 +14,9 @@ namespace steerstat {
 /// thread-safe: one runner a thread.
 class LockstepRunner final : public TrialRunner {
  public:
-  /// @param kind  of the trials it is given: an ideal runner would overlook imperfections
-  LockstepRunner(double tolerance, InstructionSet set, LoopKind kind = LoopKind::ideal);
+  /// @param metrics  whether effort and peaks are measured
+  /// @param kind     of the trials it is given: an ideal runner would overlook imperfections
+  LockstepRunner(double tolerance, InstructionSet set, bool metrics = true, LoopKind kind = LoopKind::ideal);
 
   using TrialRunner::run;
   void run(TrialStream& stream) override;
@@ -37,6 +38,7 @@ class LockstepRunner final : public TrialRunner {
 
   std::unique_ptr<LockstepEngine> engine_;
   std::vector<Seat> seats_;
+  bool metrics_;
 };
 
 }  // namespace steerstat

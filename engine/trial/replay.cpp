@@ -72,8 +72,8 @@ Trajectory replay(const TrialParameters& parameters, const IntegratorChoice& cho
       return record(parameters, CvodeIntegrator(choice.tolerance), choice.metrics, interval);
     case IntegratorChoice::Method::lockstep:
       return record(parameters,
-                    LockstepIntegrator(choice.tolerance, best_instruction_set(), 0, loop_kind_of(parameters)), false,
-                    interval);
+                    LockstepIntegrator(choice.tolerance, best_instruction_set(), 0, loop_kind_of(parameters)),
+                    choice.metrics, interval);
   }
   throw RunFailure("unknown integration method");
 }

@@ -43,7 +43,7 @@ std::unique_ptr<TrialRunner> make_runner(const IntegratorChoice& integrator, Ins
     case IntegratorChoice::Method::cvode:
       return std::make_unique<CvodeRunner>(integrator.tolerance, integrator.metrics);
     case IntegratorChoice::Method::lockstep:
-      return std::make_unique<LockstepRouter>(integrator.tolerance, set);
+      return std::make_unique<LockstepRouter>(integrator.tolerance, set, integrator.metrics);
   }
   throw RunFailure("unknown integration method");
 }

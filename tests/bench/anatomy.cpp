@@ -59,14 +59,14 @@ double lanes_in_pack(InstructionSet set, double tolerance) {
 }  // namespace
 
 Anatomy dissect_lockstep(InstructionSet set, double tolerance, double seconds, int repetitions) {
-  const auto make_lockstep = [&] { return make_runner({IntegratorChoice::Method::lockstep, tolerance}, set); };
+  const auto make_lockstep = [&] { return make_runner({IntegratorChoice::Method::lockstep, tolerance, false}, set); };
   const std::uint64_t trials = trials_for(seconds, make_lockstep, 1);
   const Plan plan(combined_study(trials));
   Anatomy anatomy{};
   std::vector<double> cpu;
   LockstepEngine::Counters counters;
   for (int i = 0; i < repetitions; ++i) {
-    LockstepRunner runner(tolerance, set);
+    LockstepRunner runner(tolerance, set, false);
     PlanStream stream(plan);
     cpu.push_back(time_of([&] { runner.run(stream); }).cpu);
     counters = runner.engine().counters();
@@ -81,7 +81,7 @@ Anatomy dissect_lockstep(InstructionSet set, double tolerance, double seconds, i
 
   const Profile samples = profile([&] {
     for (int i = 0; i < repetitions; ++i) {
-      LockstepRunner runner(tolerance, set);
+      LockstepRunner runner(tolerance, set, false);
       PlanStream stream(plan);
       runner.run(stream);
     }

@@ -40,7 +40,7 @@ class DrawnStream final : public TrialStream {
 void run_to_be_counted() {
   constexpr std::uint64_t trials = 300;
   DrawnStream stream{Plan(combined_study(trials))};
-  LockstepRunner runner(IntegratorChoice{}.tolerance, InstructionSet::avx2);
+  LockstepRunner runner(IntegratorChoice{}.tolerance, InstructionSet::avx2, false);
   runner.run(stream);
   fmt::print("{} trials, {} converged, {} lane-steps\n", trials, stream.converged(),
              runner.engine().counters().lane_steps);

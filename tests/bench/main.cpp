@@ -33,9 +33,10 @@ constexpr Effort quick{100, 0.1, 1};
 
 using Method = std::function<MakeRunner(double tolerance)>;
 
-Method lockstep_on(InstructionSet set) {
-  return [set](double tolerance) -> MakeRunner {
-    return [=] { return make_runner({IntegratorChoice::Method::lockstep, tolerance}, set); };
+/// @param metrics  whether effort and peaks are measured, which the peers do not
+Method lockstep_on(InstructionSet set, bool metrics = false) {
+  return [=](double tolerance) -> MakeRunner {
+    return [=] { return make_runner({IntegratorChoice::Method::lockstep, tolerance, metrics}, set); };
   };
 }
 
@@ -45,7 +46,7 @@ Method peer(std::unique_ptr<Peer> (*make)(double)) {
 }
 
 Method cvode() {
-  return [](double tolerance) -> MakeRunner { return [=] { return std::make_unique<CvodeRunner>(tolerance); }; };
+  return [](double tolerance) -> MakeRunner { return [=] { return std::make_unique<CvodeRunner>(tolerance, false); }; };
 }
 
 struct Named {
@@ -108,7 +109,9 @@ std::vector<Contender> contenders(const std::vector<TrialOutcome>& reference, co
     const std::string name = fmt::format("lockstep {}", name_of(set));
     const MakeRunner at_default = lockstep_on(set)(standard);
     add(name, best.tolerance, lockstep_on(set)(best.tolerance), 2, best.accuracy);
-    add(name, standard, at_default, 2, accuracy_of(run_trials(reference.size(), at_default).outcomes, reference));
+    const Accuracy accuracy = accuracy_of(run_trials(reference.size(), at_default).outcomes, reference);
+    add(name, standard, at_default, 2, accuracy);
+    add(name + ", metrics", standard, lockstep_on(set, true)(standard), 1, accuracy);
   }
   for (const auto& [name, method] : peers()) {
     const Calibrated calibrated = calibrate(method, reference, wanted_error);
