@@ -88,7 +88,7 @@ const Sweep* sweep_of(const Input& input) {
 void decode_swept_value(const Reader& reader, const Input& input, Gate& gate) {
   const auto value = reader.number();
   if (!value) return;
-  const std::vector<double>& values = sweep_of(input)->values;
+  const std::vector<double>& values = std::get<Sweep>(input.value).values;
   if (std::find(values.begin(), values.end(), *value) == values.end()) {
     const double near = *std::min_element(
         values.begin(), values.end(), [&](double a, double b) { return std::abs(a - *value) < std::abs(b - *value); });
