@@ -65,13 +65,15 @@ Phase align(const Controller& controller) {
   return phase;
 }
 
-/// (16)-(17). @return nothing where T is longer than a cycle may be.
-std::optional<Phase> contraction(const PassiveJoint& joint, const Controller& controller, const Goal& goal) {
-  const auto& [eta1, eta2, max_period] = controller.contraction;
-  const double period = (1.0 - eta1) * (goal.width - joint.u) / joint.omega;  // (16)
-  if (!(period <= max_period)) return std::nullopt;
+/// (16): the period of a contraction cycle from here.
+double contraction_period(const PassiveJoint& joint, const Controller& controller, const Goal& goal) {
+  return (1.0 - controller.contraction.eta1) * (goal.width - joint.u) / joint.omega;
+}
+
+/// (17)
+Phase contraction(double period, const PassiveJoint& joint, const Controller& controller) {
   const double gain = controller.coupling * controller.coupling * beta * std::abs(joint.s2);
-  const double amplitude = std::sqrt(period * (1.0 - eta2) * joint.omega / gain);  // (17)
+  const double amplitude = std::sqrt(period * (1.0 - controller.contraction.eta2) * joint.omega / gain);
   return cycle(PhaseKind::contraction, period, amplitude);
 }
 
@@ -118,8 +120,9 @@ Phase swing(const PassiveJoint& joint, const Controller& controller) {
 Phase steer(const State<double>& x, const PassiveJoint& joint, const Controller& controller, const Goal& goal) {
   const double entry = controller.entry_fraction * goal.width - arrival_slack;
   const bool inside = joint.omega > 0.0 && entry <= joint.u && joint.u < goal.width;
-  if (inside) {
-    if (const std::optional<Phase> phase = contraction(joint, controller, goal)) return *phase;  // rule 4
+  if (inside) {  // rule 4
+    const double period = contraction_period(joint, controller, goal);
+    if (period <= controller.contraction.max_period) return contraction(period, joint, controller);
   }
   const double authority = controller.swing.min_authority;
   const bool too_slow = joint.omega < controller.drift.min_speed && joint.s2 < -authority;
@@ -132,13 +135,9 @@ Phase steer(const State<double>& x, const PassiveJoint& joint, const Controller&
   return swing(joint, controller);  // rule 7
 }
 
-Decision stop(Status status, const Memory& memory) {
-  return {status, Phase{}, memory};
-}
-
-Decision run(const Phase& phase, Memory memory) {
-  memory.last = phase.kind;
-  switch (phase.kind) {
+void count(PhaseKind kind, Memory& memory) {
+  memory.last = kind;
+  switch (kind) {
     case PhaseKind::align:
       ++memory.alignments;
       break;
@@ -151,7 +150,6 @@ Decision run(const Phase& phase, Memory memory) {
     case PhaseKind::drift:
       break;
   }
-  return {std::nullopt, phase, memory};
 }
 
 }  // namespace
@@ -162,29 +160,31 @@ Decision run(const Phase& phase, Memory memory) {
 // sanitizers are not ready yet when the clone is chosen, and clang takes no clones of a flattened function.)
 [[gnu::target_clones("default", "fma"), gnu::flatten]]
 #endif
-Decision
-decide(double t, const State<double>& x, const Memory& memory, const Controller& controller, const Goal& goal) {
+std::optional<Status>
+decide(double t, const State<double>& x, const Controller& controller, const Goal& goal, Memory& memory, Phase& phase) {
+  const auto run = [&](const Phase& chosen) {
+    phase = chosen;
+    count(chosen.kind, memory);
+    return std::optional<Status>{};
+  };
   const double active = active_error(x, goal);
   const bool aligned = active <= controller.alignment.tolerance;
   const bool late = t >= controller.horizon - time_slack;
   // Every trial starts with align. An align that is skipped, or has no time left, counts as one that ended at once.
-  if (!memory.last && !aligned && !late && is_finite(x)) return run(align(controller), memory);
+  if (!memory.last && !aligned && !late && is_finite(x)) return run(align(controller));
 
-  if (has_diverged(x, goal)) return stop(Status::diverged, memory);
-  if (late || memory.decisions >= most_decisions) return stop(Status::timeout, memory);  // rule 1
-  if (memory.last && realigns_after(*memory.last, controller.realignment) && !aligned) {
-    return run(align(controller), memory);
-  }
+  if (has_diverged(x, goal)) return Status::diverged;
+  if (late || memory.decisions >= most_decisions) return Status::timeout;  // rule 1
+  if (memory.last && realigns_after(*memory.last, controller.realignment) && !aligned) return run(align(controller));
 
-  Memory next = memory;
-  ++next.decisions;
+  ++memory.decisions;
   if (passive_error(x, goal) <= controller.convergence.tolerance) {  // rule 2
-    if (active <= controller.convergence.active_tolerance) return stop(Status::converged, next);
-    return run(align(controller), next);
+    if (active <= controller.convergence.active_tolerance) return Status::converged;
+    return run(align(controller));
   }
   const PassiveJoint joint = passive_joint(x, goal);
-  if (std::abs(joint.sine) <= 1e-6 && std::abs(x.q2_dot) <= 1e-6) return stop(Status::singular, next);  // rule 3
-  return run(steer(x, joint, controller, goal), next);
+  if (std::abs(joint.sine) <= 1e-6 && std::abs(x.q2_dot) <= 1e-6) return Status::singular;  // rule 3
+  return run(steer(x, joint, controller, goal));
 }
 
 }  // namespace steerstat

@@ -38,6 +38,22 @@ inline constexpr std::uint32_t most_decisions = 10000;
 /// @param t       [s] since the trial's start
 /// @param x       measured state
 /// @param memory  what the decision before this one returned; `Memory{}` at the start
-Decision decide(double t, const State<double>& x, const Memory& memory, const Controller& controller, const Goal& goal);
+inline Decision decide(double t, const State<double>& x, const Memory& memory, const Controller& controller,
+                       const Goal& goal);
+
+/// The same in place: to copy a decision takes as long as to make it.
+///
+/// @param memory  becomes the new one
+/// @param phase   becomes the phase to run, if any
+/// @return        the trial's end, if it ends
+std::optional<Status> decide(double t, const State<double>& x, const Controller& controller, const Goal& goal,
+                             Memory& memory, Phase& phase);
+
+inline Decision decide(double t, const State<double>& x, const Memory& memory, const Controller& controller,
+                       const Goal& goal) {
+  Decision decision{std::nullopt, Phase{}, memory};
+  decision.outcome = decide(t, x, controller, goal, decision.memory, decision.phase);
+  return decision;
+}
 
 }  // namespace steerstat

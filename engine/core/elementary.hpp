@@ -44,9 +44,11 @@ inline SinCos<double> sincos(double x) {
   const double r = std::fma(-n, k::half_pi_low, std::fma(-n, k::half_pi_high, x));
   const double r2 = r * r;
   double p = k::sine[0];
+#pragma GCC unroll 8
   for (int i = 1; i < 8; ++i) p = std::fma(p, r2, k::sine[i]);
   const double s = std::fma(p * r2, r, r);
   double q = k::cosine[0];
+#pragma GCC unroll 8
   for (int i = 1; i < 8; ++i) q = std::fma(q, r2, k::cosine[i]);
   const double c = std::fma(q, r2, 1.0);
   // The quadrant n mod 4, without an integer conversion that a huge or non-finite n would make undefined.
@@ -109,7 +111,8 @@ inline double arc_sine(double x) {
   z = z / (1.0 + std::sqrt(1.0 + z * z));
   const double z2 = z * z;
   double p = 0.0;
-  for (double odd = 23.0; odd >= 3.0; odd -= 2.0) p = 1.0 / odd - z2 * p;
+#pragma GCC unroll 12
+  for (int odd = 23; odd >= 3; odd -= 2) p = 1.0 / odd - z2 * p;  // unrolled, it divides at compile time
   return 8.0 * (z - z * z2 * p);
 }
 

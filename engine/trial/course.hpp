@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "integrate/arrival.hpp"
 #include "integrate/closed_loop.hpp"
@@ -61,12 +62,13 @@ TrialOutcome run_course(const TrialParameters& parameters, Advance&& advance) {
   State<double> x = parameters.start;
   Supervision supervision;
   ContractionRecord contraction;
+  Phase phase;
   while (true) {
-    const Decision decision = supervision.decide(parameters, t, x);
-    if (decision.outcome) return outcome_of(*decision.outcome, t, x, supervision.memory(), contraction, goal);
-    contraction.start(decision.phase, t, x, goal, parameters.controller.horizon);
-    const double t_end = std::min(t + decision.phase.duration, parameters.controller.horizon);
-    const Arrival arrival = advance(decision.phase, t, x, t_end);
+    const std::optional<Status> ended = supervision.decide(parameters, t, x, phase);
+    if (ended) return outcome_of(*ended, t, x, supervision.memory(), contraction, goal);
+    contraction.start(phase, t, x, goal, parameters.controller.horizon);
+    const double t_end = std::min(t + phase.duration, parameters.controller.horizon);
+    const Arrival arrival = advance(phase, t, x, t_end);
     t = arrival.t;
     x = arrival.state;
     if (arrival.cause == Cause::failure) {

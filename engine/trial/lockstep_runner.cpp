@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <optional>
 
 #include "trial/course.hpp"
 
@@ -37,13 +38,13 @@ void LockstepRunner::report(TrialStream& stream, int lane, Status status, double
 bool LockstepRunner::carry_on(TrialStream& stream, int lane, double t, const State<double>& x) {
   Seat& seat = seats_[static_cast<std::size_t>(lane)];
   const TrialParameters& parameters = seat.parameters;
-  const Decision decision = seat.supervision.decide(parameters, t, x);
-  if (decision.outcome) {
-    report(stream, lane, *decision.outcome, t, x);
+  Phase phase;
+  if (const std::optional<Status> ended = seat.supervision.decide(parameters, t, x, phase)) {
+    report(stream, lane, *ended, t, x);
     return false;
   }
-  seat.contraction.start(decision.phase, t, x, parameters.goal, parameters.controller.horizon);
-  engine_->start(lane, decision.phase, t, x, std::min(t + decision.phase.duration, parameters.controller.horizon));
+  seat.contraction.start(phase, t, x, parameters.goal, parameters.controller.horizon);
+  engine_->start(lane, phase, t, x, std::min(t + phase.duration, parameters.controller.horizon));
   return true;
 }
 

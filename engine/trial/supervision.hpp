@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "control/supervisor.hpp"
 #include "trial/trial.hpp"
@@ -13,9 +14,10 @@ class Supervision {
  public:
   /// Decides in state x at time t [s], upon the trial's next reading.
   ///
-  /// @return what the supervisor decided; its phase is in terms of the true state, so that an integrator that knows no
-  ///         sensor ends it where the reading says
-  Decision decide(const TrialParameters& trial, double t, const State<double>& x);
+  /// @param phase  becomes the phase to run, if any, in terms of the true state, so that an integrator that knows no
+  ///               sensor ends it where the reading says
+  /// @return       the trial's end, if it ends
+  std::optional<Status> decide(const TrialParameters& trial, double t, const State<double>& x, Phase& phase);
 
   /// What the last decision left.
   [[nodiscard]] const Memory& memory() const { return memory_; }

@@ -70,6 +70,13 @@ TEST(Sensor, NoiseIsIndependentNormalsAboutTheBias) {
   }
 }
 
+Decision decided(Supervision& supervision, const TrialParameters& trial, double t, const State<double>& x) {
+  Decision decision;
+  decision.outcome = supervision.decide(trial, t, x, decision.phase);
+  decision.memory = supervision.memory();
+  return decision;
+}
+
 TEST(Supervision, ReadsAnewForEachDecisionAndHoldsTheErrorInThePhase) {
   TrialParameters trial;
   trial.sensor = noisy(5);
@@ -79,7 +86,7 @@ TEST(Supervision, ReadsAnewForEachDecisionAndHoldsTheErrorInThePhase) {
     const State<double> error = trial.sensor.error(k);
     const State<double> x{0.4, 0.5, 0.0, 0.0};
     const Memory before = supervision.memory();
-    const Decision got = supervision.decide(trial, 1.0, x);
+    const Decision got = decided(supervision, trial, 1.0, x);
     const Decision expected = decide(1.0, reading(x, error), before, trial.controller, trial.goal);
     EXPECT_EQ(got.memory, expected.memory);
     EXPECT_EQ(got.outcome, expected.outcome);
@@ -96,7 +103,7 @@ TEST(Supervision, ADriftsBoundsAreShiftedSoThatTheReadingMeetsThem) {
   trial.sensor.bias = {0.0, 0.02, 0.0, 0.003};
   trial.start = {0.0, -1.0, 0.0, 0.3};
   Supervision supervision;
-  const Decision got = supervision.decide(trial, 0.0, trial.start);
+  const Decision got = decided(supervision, trial, 0.0, trial.start);
   const Decision expected =
       decide(0.0, reading(trial.start, trial.sensor.bias), Memory{}, trial.controller, trial.goal);
   ASSERT_EQ(got.phase.kind, PhaseKind::drift);
@@ -108,7 +115,8 @@ TEST(Supervision, ADriftsBoundsAreShiftedSoThatTheReadingMeetsThem) {
 TEST(Supervision, WithoutErrorsItIsTheSupervisorToTheBit) {
   TrialParameters trial;
   trial.start = {0.0, -1.0, 0.0, 0.3};
-  const Decision got = Supervision{}.decide(trial, 0.0, trial.start);
+  Supervision supervision;
+  const Decision got = decided(supervision, trial, 0.0, trial.start);
   const Decision expected = decide(0.0, trial.start, Memory{}, trial.controller, trial.goal);
   EXPECT_EQ(got.phase, expected.phase);
   EXPECT_EQ(got.memory, expected.memory);
