@@ -22,7 +22,7 @@ Part part_of(std::string_view name) {
       {{Part::series, {"::expand"}},
        {Part::step, {"::advance"}},
        {Part::guards,
-        {"first_crossing", "refine", "::sample(", "locate_guard", "JointSeries", "take_lane", "::search("}},
+        {"first_crossing", "refine", "::sample(", "locate_guard", "LaneMotion", "take_lane", "::search("}},
        {Part::supervisor, {"steerstat::decide"}},
        {Part::runner, {"LockstepRunner", "Kernel<", "LockstepEngine"}},
        {Part::draws,
