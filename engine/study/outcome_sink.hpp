@@ -19,6 +19,16 @@ class OutcomeSink {
   OutcomeSink(const OutcomeSink&) = delete;
   OutcomeSink& operator=(const OutcomeSink&) = delete;
 
+  /// Shows where the outcomes of all trials lie, before the first is taken: those finished earlier are there, any other
+  /// may be looked at once it was taken. Called again, after close(), with the trials of a run that is complete, while
+  /// it is audited.
+  ///
+  /// @param slots  (trials) by index; there until close()
+  virtual void open(std::span<const TrialOutcome> /*slots*/) {}
+
+  /// Nothing shown by open() may be looked at any more. Called at the end of a run, also one that fails.
+  virtual void close() noexcept {}
+
   /// Takes finished trials. What it throws ends the run and leaves run_study().
   ///
   /// @param begin     index of the first

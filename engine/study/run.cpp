@@ -56,12 +56,13 @@ std::uint64_t total(const std::vector<Tally>& tallies) {
 class BlockStream final : public TrialStream {
  public:
   BlockStream(const Plan& plan, BlockQueue& blocks, std::vector<TrialOutcome>& outcomes, Listeners listeners,
-              Tally& tally)
-      : plan_(plan), blocks_(blocks), outcomes_(outcomes), listeners_(listeners), tally_(tally) {}
+              Tally& tally, Turnstile::Turn& turn)
+      : plan_(plan), blocks_(blocks), outcomes_(outcomes), listeners_(listeners), tally_(tally), turn_(turn) {}
 
   bool next(std::uint64_t& index, TrialParameters& parameters) override {
     if (block_.begin == block_.end) {
       if (dry_) return false;
+      turn_.give_way();
       const std::optional<TrialRange> claimed = blocks_.claim();
       dry_ = !claimed;
       if (dry_) return false;
@@ -85,8 +86,28 @@ class BlockStream final : public TrialStream {
   std::vector<TrialOutcome>& outcomes_;
   const Listeners listeners_;
   Tally& tally_;
+  Turnstile::Turn& turn_;
   TrialRange block_{0, 0};
   bool dry_{false};  // a runner may ask again after the end; the answer stays no
+};
+
+/// Shows a sink the slots of all outcomes, as long as they are there.
+class Showing {
+ public:
+  /// @param sink  null where nobody looks
+  Showing(OutcomeSink* sink, std::span<const TrialOutcome> outcomes) : sink_(sink) {
+    if (sink_ != nullptr) sink_->open(outcomes);
+  }
+  ~Showing() { end(); }
+  Showing(const Showing&) = delete;
+  Showing& operator=(const Showing&) = delete;
+
+  void end() {
+    if (OutcomeSink* const sink = std::exchange(sink_, nullptr); sink != nullptr) sink->close();
+  }
+
+ private:
+  OutcomeSink* sink_;
 };
 
 /// Calls the progress callback from a thread of its own, which sleeps in between, until destroyed or finish()ed.
@@ -155,11 +176,12 @@ std::vector<std::uint64_t> rows_to_retain(const Retention& retention, const Tria
   return rows;
 }
 
-std::vector<StudyResult::Retained> retained_trajectories(const Study& study, const Plan& plan,
-                                                         const TrialTable& trials) {
+std::vector<StudyResult::Retained> retained_trajectories(const Study& study, const Plan& plan, const TrialTable& trials,
+                                                         Turnstile* turns) {
   const std::vector<std::uint64_t> rows = rows_to_retain(study.retention, trials);
   std::vector<StudyResult::Retained> retained(rows.size());
   tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
+    const Turnstile::Turn turn(turns);
     const std::uint64_t index = trials.index[rows[i]];
     retained[i] = {index, replay(plan.parameters(index), study.integrator)};
     if (!same_bits(retained[i].trajectory.outcome, trials.outcomes[rows[i]])) {
@@ -170,12 +192,13 @@ std::vector<StudyResult::Retained> retained_trajectories(const Study& study, con
 }
 
 /// Computes trials of the run again with the reference integrator. After a stop request no further one is begun.
-Audit audit_of(const Study& study, const Plan& plan, const TrialTable& trials, const std::stop_token& stop) {
+Audit audit_of(const Study& study, const Plan& plan, const TrialTable& trials, const RunOptions& options) {
   const IntegratorChoice auditor = auditor_of(study.integrator);
   const std::vector<std::uint64_t> rows = rows_to_audit(study.sampling.seed, study.audited_trials, trials.index.size());
   std::vector<std::optional<AuditedTrial>> finished(rows.size());
   const auto audit_one = [&](std::size_t i) {
-    if (stop.stop_requested()) return;
+    const Turnstile::Turn turn(options.turns);
+    if (options.stop.stop_requested()) return;
     const std::uint64_t index = trials.index[rows[i]];
     finished[i] = audited(index, make_runner(auditor)->run(plan.parameters(index)));
   };
@@ -205,7 +228,8 @@ void work(const Study& study, const Plan& plan, const RunOptions& options, Block
           std::vector<TrialOutcome>& outcomes, Listeners listeners, std::vector<Tally>& tallies) {
   const auto work_as = [&](std::size_t worker) {
     try {
-      BlockStream stream(plan, blocks, outcomes, listeners, tallies[worker]);
+      Turnstile::Turn turn(options.turns);
+      BlockStream stream(plan, blocks, outcomes, listeners, tallies[worker], turn);
       const auto runner =
           options.make_runner ? options.make_runner(study.integrator) : make_runner(study.integrator, options.simd);
       runner->run(stream);
@@ -231,6 +255,7 @@ void run_trials(const Study& study, const Plan& plan, const RunOptions& options,
     prefix.emplace(watch_of(study, plan), outcomes, block);
     show(*prefix, known, blocks);
   }
+  Showing showing(options.sink, outcomes);
   std::optional<HandOver> handover;
   if (options.sink != nullptr) {
     handover.emplace(*options.sink, blocks.blocks(), block, outcomes, [&blocks] { blocks.halt(); });
@@ -241,6 +266,7 @@ void run_trials(const Study& study, const Plan& plan, const RunOptions& options,
   result.wall_s = earlier.wall_s + seconds_since(start);
   if (handover) handover->finish();
   reports.finish();
+  showing.end();
   if (total(tallies) != blocks.begun()) throw std::logic_error("a runner returned before its trials were finished");
 
   const std::uint64_t finished = blocks.first_left();  // all before it
@@ -273,9 +299,22 @@ std::uint64_t block_size(const Study& study) {
   return study.integrator.method == IntegratorChoice::Method::cvode ? 16 : 128;
 }
 
+unsigned default_threads() {
+  return static_cast<unsigned>(tbb::info::default_concurrency());
+}
+
+struct SharedWorkers::Control {
+  tbb::global_control allowed;
+};
+
+SharedWorkers::SharedWorkers(unsigned workers)
+    : control_(new Control{{tbb::global_control::max_allowed_parallelism, std::max(workers, 1U)}}) {}
+
+SharedWorkers::~SharedWorkers() = default;
+
 StudyResult run_study(const Study& study, const RunOptions& options, FinishedTrials earlier) {
   const Plan plan(study);
-  const auto cores = static_cast<unsigned>(tbb::info::default_concurrency());
+  const unsigned cores = default_threads();
   const std::uint64_t asked = options.threads == 0 ? cores : options.threads;
   const std::uint64_t blocks = (plan.trials() + block_size(study) - 1) / block_size(study);
   const auto workers = static_cast<unsigned>(std::clamp<std::uint64_t>(blocks, 1, asked));
@@ -283,14 +322,19 @@ StudyResult run_study(const Study& study, const RunOptions& options, FinishedTri
   StudyResult result;
   result.threads = workers;
   if (study.integrator.method == IntegratorChoice::Method::lockstep) result.simd = options.simd;
-  // TBB keeps to the cores unless allowed more; the caller may ask for more.
-  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, std::max(workers, cores));
+  // TBB keeps to the cores unless allowed more; the caller may ask for more. Of several such controls TBB heeds the
+  // least, so that of runs that share turns is theirs alone.
+  std::optional<tbb::global_control> allow;
+  if (options.turns == nullptr) {
+    allow.emplace(tbb::global_control::max_allowed_parallelism, std::max(workers, cores));
+  }
   run_trials(study, plan, options, std::move(earlier), result);
   // Of a few lockstep trials, which fill one block, the audit still has work for every thread.
   tbb::task_arena wide_arena(static_cast<int>(std::min<std::uint64_t>(asked, std::max(workers, cores))));
+  const Showing showing(result.complete ? options.sink : nullptr, result.trials.outcomes);
   wide_arena.execute([&] {
-    result.trajectories = retained_trajectories(study, plan, result.trials);
-    result.audit = audit_of(study, plan, result.trials, options.stop);
+    result.trajectories = retained_trajectories(study, plan, result.trials, options.turns);
+    result.audit = audit_of(study, plan, result.trials, options);
   });
   return result;
 }

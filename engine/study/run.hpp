@@ -14,6 +14,7 @@
 #include "study/precision_watch.hpp"
 #include "study/study.hpp"
 #include "study/trial_table.hpp"
+#include "study/turnstile.hpp"
 #include "trial/replay.hpp"
 #include "trial/runner.hpp"
 
@@ -35,6 +36,9 @@ struct RunOptions {
   std::stop_token stop{};                       ///< a request ends the run after the blocks in flight
   InstructionSet simd{best_instruction_set()};  ///< what lockstep runs on; the outcomes are the same bits on each
   OutcomeSink* sink{nullptr};  ///< takes every finished trial of the run while it goes on; null: nobody does
+  /// What the workers of several runs share the processors through, at every block, and every trial of the audit and of
+  /// the retained; null: nobody is waited for. Whoever sets it says with SharedWorkers how many there may be.
+  Turnstile* turns{nullptr};
   /// Makes each worker's runner, on that worker; empty: make_runner(integrator, simd).
   std::function<std::unique_ptr<TrialRunner>(const IntegratorChoice&)> make_runner{};
 };
@@ -68,6 +72,23 @@ std::optional<StopReport> watched(const Study& study, const TrialTable& trials);
 /// How many trials a finished run of the study leaves: all, or as many as its rule let it take before it stopped.
 /// @param trials  those that it left
 std::uint64_t trials_due(const Study& study, const TrialTable& trials);
+
+/// One a core that this process may use.
+unsigned default_threads();
+
+/// While it lives, runs that share turns may have so many workers together; without it, as many as there are cores.
+/// One in a process at a time.
+class SharedWorkers {
+ public:
+  explicit SharedWorkers(unsigned workers);
+  ~SharedWorkers();
+  SharedWorkers(const SharedWorkers&) = delete;
+  SharedWorkers& operator=(const SharedWorkers&) = delete;
+
+ private:
+  struct Control;
+  std::unique_ptr<Control> control_;
+};
 
 /// Runs a study on TBB, then audits it. The outcomes and the audit are the same bits whatever the number of threads.
 /// Safe to call from several threads at once.

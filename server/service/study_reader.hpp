@@ -1,0 +1,53 @@
+#pragma once
+
+#include <functional>
+#include <mutex>
+#include <span>
+
+#include "report/comparison.hpp"
+#include "service/catalogue.hpp"
+#include "service/opened_studies.hpp"
+#include "service/study_rows.hpp"
+
+namespace steerstat {
+
+struct SummaryText;
+
+/// Answers what the finished trials of studies say, running ones too. Thread-safe. Throws RunFailure where files cannot
+/// be read.
+class StudyReader {
+ public:
+  /// @param catalogue  must outlive this
+  StudyReader(const Catalogue& catalogue, std::uint64_t opened_bytes) : catalogue_(catalogue), opened_(opened_bytes) {}
+
+  [[nodiscard]] SummaryText summary(const StudyEntry& entry);
+  [[nodiscard]] TrialPage trials(const StudyEntry& entry, const TrialFilter& filter, std::uint64_t begin,
+                                 std::size_t limit);
+  [[nodiscard]] TrialPage trial(const StudyEntry& entry, std::uint64_t index);
+  [[nodiscard]] ReplayedTrial trajectory(const StudyEntry& entry, std::uint64_t index);
+  [[nodiscard]] std::optional<std::filesystem::path> result_file(const StudyEntry& entry);
+  [[nodiscard]] Comparison compare(const StudyEntry& a, const StudyEntry& b);
+
+  void forget(const std::string& id) { opened_.forget(id); }
+
+ private:
+  /// Finished trials as they lie somewhere in memory.
+  struct View {
+    std::span<const TrialOutcome> outcomes;
+    std::span<const std::uint64_t> index;  ///< of each; empty where it is the position
+    bool is_live;                          ///< of a run under way, else `kept` is there
+    const KeptStudy* kept;
+  };
+  using Look = std::function<void(const View&)>;
+
+  void look_at(const StudyEntry& entry, const Look& look);
+  [[nodiscard]] std::shared_ptr<const KeptStudy> opened(const StudyEntry& entry);
+  [[nodiscard]] std::shared_ptr<const KeptStudy> everything(const StudyEntry& entry);
+  [[nodiscard]] std::optional<std::string> kept_summary(const StudyEntry& entry) const;
+
+  const Catalogue& catalogue_;
+  OpenedStudies opened_;
+  std::mutex comparing_{};  // one at a time: each holds two studies and their parameters
+};
+
+}  // namespace steerstat

@@ -1,0 +1,287 @@
+#include "service/study_service.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <mutex>
+#include <utility>
+
+#include "core/errors.hpp"
+#include "core/version.hpp"
+#include "report/readable.hpp"
+#include "service/catalogue.hpp"
+#include "service/data_directory.hpp"
+#include "service/kept_run.hpp"
+#include "service/study_reader.hpp"
+#include "service/study_runner.hpp"
+#include "store/free_space.hpp"
+#include "study/continuation.hpp"
+#include "study/plan.hpp"
+#include "study/spec_json.hpp"
+
+namespace steerstat {
+namespace {
+
+using Tell = std::function<void(const std::string&)>;
+
+/// One line at a time.
+Tell in_turn(Tell tell) {
+  return [tell = std::move(tell), mutex = std::make_shared<std::mutex>()](const std::string& line) {
+    const std::lock_guard lock(*mutex);
+    if (tell) tell(line);
+  };
+}
+
+/// What of a study is too much. @param memory  [bytes] that studies may need
+std::vector<SpecError> excesses(const Study& study, const ServiceLimits& limits, std::uint64_t memory) {
+  std::vector<SpecError> errors;
+  const Plan plan(study);
+  if (plan.trials() > limits.trials) {
+    errors.push_back(
+        {"/sampling/trials", fmt::format("{} trials in all cells together (at most {} here); ask for fewer",
+                                         readable_count(plan.trials()), readable_count(limits.trials))});
+  }
+  if (plan.cells() > limits.cells) {
+    errors.push_back({"", fmt::format("the sweeps make {} cells (at most {} here); sweep fewer values",
+                                      readable_count(plan.cells()), readable_count(limits.cells))});
+  }
+  const std::uint64_t needed = demand_of(study).memory;
+  if (errors.empty() && needed > memory) {
+    errors.push_back(
+        {"/sampling/trials", fmt::format("the study needs about {} MiB of memory (at most {} here); ask for "
+                                         "fewer trials or retained trajectories",
+                                         needed >> 20U, memory >> 20U)});
+  }
+  return errors;
+}
+
+}  // namespace
+
+class StudyService::Implementation {
+ public:
+  Implementation(const std::filesystem::path& data, unsigned threads, const ServiceLimits& limits, Tell tell)
+      : limits_(limits),
+        tell_(in_turn(std::move(tell))),
+        data_(data),
+        reader_(catalogue_, limits.opened_results),
+        runner_(catalogue_, threads > 0 ? threads : default_threads(), limits, tell_) {
+    std::vector<Catalogue::Entry> unfinished;
+    for (const Catalogue::Entry& entry : data_.recover(tell_)) {
+      catalogue_.insert(entry);
+      if (!is_over(entry->record.status)) unfinished.push_back(entry);
+    }
+    std::sort(unfinished.begin(), unfinished.end(), [](const Catalogue::Entry& a, const Catalogue::Entry& b) {
+      return std::pair(a->record.created, a->id) < std::pair(b->record.created, b->id);
+    });
+    for (const Catalogue::Entry& entry : unfinished) runner_.enqueue(entry);
+    runner_.start();
+  }
+
+  ~Implementation() { stop(); }
+  Implementation(const Implementation&) = delete;
+  Implementation& operator=(const Implementation&) = delete;
+
+  void stop() {
+    stopping_ = true;
+    catalogue_.close();
+    runner_.stop();
+  }
+
+  Submission submit(std::string_view text) {
+    if (text.size() > limits_.spec_bytes) {
+      throw LimitExceeded({{"", fmt::format("the spec has {} bytes (at most {} here); shorten it",
+                                            readable_count(text.size()), readable_count(limits_.spec_bytes))}});
+    }
+    const auto study = std::make_shared<const Study>(decode_study(text, {}));
+    if (auto errors = excesses(*study, limits_, runner_.memory()); !errors.empty()) {
+      throw LimitExceeded(std::move(errors));
+    }
+    const std::lock_guard lock(changing_);
+    require_going();
+    if (const Catalogue::Entry known = catalogue_.find(study_id(*study))) {
+      go_on(known);
+      return {catalogue_.state(*known), false};
+    }
+    require_place();
+    return {catalogue_.state(*add(study)), true};
+  }
+
+  Removal cancel_or_remove(const std::string& id) {
+    const std::lock_guard lock(changing_);
+    require_going();
+    const Catalogue::Entry entry = known(id);
+    const StudyState state = catalogue_.state(*entry);
+    if (!is_over(state.status)) return {cancelled(*entry), false};
+    entry->home.remove();
+    catalogue_.erase(*entry);
+    reader_.forget(id);
+    return {state, true};
+  }
+
+  [[nodiscard]] Catalogue::Entry known(const std::string& id) const {
+    Catalogue::Entry entry = catalogue_.find(id);
+    if (!entry) throw NoSuchStudy(id);
+    return entry;
+  }
+
+  [[nodiscard]] const Catalogue& catalogue() const { return catalogue_; }
+  [[nodiscard]] StudyReader& reader() { return reader_; }
+  [[nodiscard]] const StudyRunner& runner() const { return runner_; }
+  [[nodiscard]] const ServiceLimits& limits() const { return limits_; }
+
+ private:
+  void require_going() const {
+    if (stopping_) throw QueueFull("the service is being stopped; try again when it is back", 10);
+  }
+
+  void require_place() const {
+    if (runner_.queued() < limits_.queued_studies) return;
+    throw QueueFull(fmt::format("{} studies wait already, as many as may; try again later", runner_.queued()), 30);
+  }
+
+  Catalogue::Entry add(const std::shared_ptr<const Study>& study) {
+    const StudyDemand demand = demand_of(*study);
+    require_free_space(data_.studies(), demand.disk + limits_.disk_headroom);
+    const ShardOrigin origin = origin_of(*study);
+    const Catalogue::Entry earlier =
+        catalogue_.find_related(origin, [&](const StudyEntry& entry) { return continues(*study, *entry.study); });
+    StudyRecord record;
+    record.created = utc_now();
+    record.revision = next_revision(0);
+    const StudyHome home = data_.home_of(study_id(*study));
+    home.create(*study, record, earlier ? &earlier->home : nullptr);
+    auto entry = std::make_shared<StudyEntry>(study_id(*study), study, home, origin, std::move(record));
+    catalogue_.insert(entry);
+    runner_.enqueue(entry);
+    return entry;
+  }
+
+  /// Lets a study that was cancelled or has failed run again.
+  void go_on(const Catalogue::Entry& entry) {
+    if (catalogue_.look(*entry, [](const StudyEntry& now) { return now.run && now.run->is_cancelled; })) {
+      catalogue_.wait_for_end(*entry);
+    }
+    const StudyStatus status = catalogue_.state(*entry).status;
+    if (status != StudyStatus::cancelled && status != StudyStatus::failed) return;
+    require_place();
+    {
+      const std::lock_guard partial(entry->partial.mutex);
+      entry->home.forget_partial_result();
+    }
+    set_status(*entry, StudyStatus::queued, std::nullopt);
+    runner_.enqueue(entry);
+  }
+
+  /// Cancels a study that waits or runs, on the disk too before this returns.
+  StudyState cancelled(StudyEntry& entry) {
+    if (!runner_.withdraw(entry)) {
+      catalogue_.change(entry, [](StudyEntry& now) {
+        if (!now.run) return;
+        now.run->is_cancelled = true;
+        now.run->stop.request_stop();
+      });
+      catalogue_.wait_for_end(entry);
+    }
+    if (!is_over(catalogue_.state(entry).status)) set_status(entry, StudyStatus::cancelled, utc_now());
+    return catalogue_.state(entry);
+  }
+
+  void set_status(StudyEntry& entry, StudyStatus status, const std::optional<std::string>& finished) {
+    catalogue_.change(entry, [&](StudyEntry& now) {
+      now.record.status = status;
+      now.record.finished = finished;
+      now.record.failure.reset();
+    });
+    keep_record(catalogue_, entry);
+  }
+
+  const ServiceLimits limits_;
+  const Tell tell_;
+  const DataDirectory data_;
+  Catalogue catalogue_{};
+  StudyReader reader_;
+  StudyRunner runner_;
+  std::mutex changing_{};  // held by who adds, cancels or removes a study
+  std::atomic<bool> stopping_{false};
+};
+
+StudyService::StudyService(const std::filesystem::path& data, unsigned threads, const ServiceLimits& limits,
+                           std::function<void(const std::string&)> tell)
+    : implementation_(std::make_unique<Implementation>(data, threads, limits, std::move(tell))) {}
+
+StudyService::~StudyService() = default;
+
+void StudyService::stop() {
+  implementation_->stop();
+}
+
+Submission StudyService::submit(std::string_view spec) {
+  return implementation_->submit(spec);
+}
+
+StudyPage StudyService::list(std::size_t limit, std::string_view cursor) const {
+  Catalogue::Page page = implementation_->catalogue().page(limit, cursor);
+  return {std::move(page.states), std::move(page.next)};
+}
+
+std::optional<StudyState> StudyService::state(const std::string& id) const {
+  const Catalogue::Entry entry = implementation_->catalogue().find(id);
+  if (!entry) return std::nullopt;
+  return implementation_->catalogue().state(*entry);
+}
+
+std::optional<StudyState> StudyService::wait_for_change(const std::string& id, std::uint64_t revision,
+                                                        std::chrono::milliseconds timeout,
+                                                        const std::stop_token& stop) const {
+  return implementation_->catalogue().wait(id, revision, timeout, stop);
+}
+
+SummaryText StudyService::summary(const std::string& id) const {
+  return implementation_->reader().summary(*implementation_->known(id));
+}
+
+std::string StudyService::spec(const std::string& id) const {
+  return canonical_spec(*implementation_->known(id)->study);
+}
+
+std::shared_ptr<const Study> StudyService::study(const std::string& id) const {
+  return implementation_->known(id)->study;
+}
+
+TrialPage StudyService::trials(const std::string& id, const TrialFilter& filter, std::uint64_t begin,
+                               std::size_t limit) const {
+  return implementation_->reader().trials(*implementation_->known(id), filter, begin, limit);
+}
+
+TrialPage StudyService::trial(const std::string& id, std::uint64_t index) const {
+  return implementation_->reader().trial(*implementation_->known(id), index);
+}
+
+ReplayedTrial StudyService::trajectory(const std::string& id, std::uint64_t index) const {
+  return implementation_->reader().trajectory(*implementation_->known(id), index);
+}
+
+std::optional<std::filesystem::path> StudyService::result_file(const std::string& id) const {
+  return implementation_->reader().result_file(*implementation_->known(id));
+}
+
+StudyService::Removal StudyService::cancel_or_remove(const std::string& id) {
+  return implementation_->cancel_or_remove(id);
+}
+
+Comparison StudyService::compare(const std::string& a, const std::string& b) const {
+  return implementation_->reader().compare(*implementation_->known(a), *implementation_->known(b));
+}
+
+ServiceCounters StudyService::counters() const {
+  ServiceCounters counters = implementation_->catalogue().counters();
+  counters.trials_done = implementation_->runner().trials_done();
+  counters.threads = implementation_->runner().threads();
+  return counters;
+}
+
+const ServiceLimits& StudyService::limits() const {
+  return implementation_->limits();
+}
+
+}  // namespace steerstat
