@@ -31,7 +31,7 @@ export default defineConfig({
   esbuild: { legalComments: "none" },
   server: { fs: { allow: ["../.."] } },
   build: {
-    target: "es2021",
+    target: "es2022",
     modulePreload: false,
     cssCodeSplit: false,
     assetsInlineLimit: 0,

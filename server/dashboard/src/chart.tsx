@@ -1,0 +1,153 @@
+// uPlot in a component: drawn anew with the theme, as wide as its place, with a tooltip and a text for those who do
+// not see it. A chart's height is fixed, so that nothing around it moves.
+import { useEffect, useRef } from "preact/hooks";
+import uPlot from "uplot";
+import "uplot/dist/uPlot.min.css";
+import { number } from "./numbers";
+import { type Palette, useTheme } from "./theme";
+
+export type ChartOptions = Omit<uPlot.Options, "width" | "height">;
+
+export interface ChartProps {
+  /** What it shows, for readers of screens. */
+  label: string;
+  height: number;
+  data: uPlot.AlignedData;
+  build: (palette: Palette) => ChartOptions;
+  /** Draws anew from build() when it changes; data alone is set without. */
+  version?: string | number;
+  /** Text at a point of the data; null for none. */
+  tooltip?: (chart: uPlot, index: number) => string[] | null;
+  /** Called with the chart, and with null when it is gone. */
+  onChart?: (chart: uPlot | null) => void;
+}
+
+export function Chart({ label, height, data, build, version = 0, tooltip, onChart }: ChartProps) {
+  const { palette } = useTheme();
+  const place = useRef<HTMLDivElement>(null);
+  const chart = useRef<uPlot | null>(null);
+  const shown = useRef(data);
+  const latest = useRef({ tooltip, onChart });
+  latest.current = { tooltip, onChart };
+
+  useEffect(() => {
+    const element = place.current;
+    if (!element) return;
+    const options = build(palette);
+    if (tooltip) options.plugins = [...(options.plugins ?? []), tooltipPlugin((u, index) => latest.current.tooltip?.(u, index) ?? null)];
+    const made = new uPlot({ ...options, width: Math.max(80, element.clientWidth), height }, shown.current, element);
+    chart.current = made;
+    latest.current.onChart?.(made);
+    const observer = new ResizeObserver(() => {
+      const width = element.clientWidth;
+      if (width > 0 && width !== made.width) made.setSize({ width, height });
+    });
+    observer.observe(element);
+    return () => {
+      observer.disconnect();
+      latest.current.onChart?.(null);
+      chart.current = null;
+      made.destroy();
+    };
+  }, [palette, version, height]);
+
+  useEffect(() => {
+    if (shown.current === data) return;
+    shown.current = data;
+    chart.current?.setData(data);
+  }, [data]);
+
+  return <div class="chart" ref={place} style={{ height: `${height}px` }} role="img" aria-label={label} />;
+}
+
+function tooltipPlugin(text: (chart: uPlot, index: number) => string[] | null): uPlot.Plugin {
+  const box = document.createElement("div");
+  box.className = "tooltip";
+  box.hidden = true;
+  return {
+    hooks: {
+      init: (u) => u.over.appendChild(box),
+      setCursor: (u) => {
+        const { left = -1, top = -1, idx } = u.cursor;
+        const lines = left < 0 || idx === null || idx === undefined ? null : text(u, idx);
+        showTooltip(box, lines, left, top, u.over.clientWidth);
+      },
+    },
+  };
+}
+
+/** Puts lines beside a point, on the side with room. */
+export function showTooltip(box: HTMLElement, lines: string[] | null, left: number, top: number, width: number): void {
+  box.hidden = lines === null;
+  if (!lines) return;
+  box.replaceChildren(
+    ...lines.map((line) => {
+      const row = document.createElement("div");
+      row.textContent = line;
+      return row;
+    }),
+  );
+  const right = left > width / 2;
+  box.style.transform = `translate(${Math.round(left + (right ? -12 : 12))}px, ${Math.round(top)}px) translate(${right ? "-100%" : "0"}, -50%)`;
+}
+
+const font = "12px system-ui, -apple-system, 'Segoe UI', Roboto, sans-serif";
+
+export interface AxisOptions {
+  label?: string;
+  size?: number;
+  values?: (values: number[]) => string[];
+  grid?: boolean;
+  space?: number;
+  splits?: uPlot.Axis["splits"];
+}
+
+/** An axis in the page's manner. */
+export function axis(palette: Palette, side: "bottom" | "left", { label, size, values, grid = true, space, splits }: AxisOptions = {}): uPlot.Axis {
+  return {
+    side: side === "bottom" ? 2 : 3,
+    stroke: palette.muted,
+    font,
+    labelFont: font,
+    labelSize: 20,
+    labelGap: 2,
+    size: size ?? (side === "bottom" ? 32 : 54),
+    gap: 4,
+    space: space ?? (side === "bottom" ? 64 : 32),
+    grid: { show: grid, stroke: palette.line, width: 1 },
+    ticks: { show: true, stroke: palette.line, width: 1, size: 5 },
+    border: { show: true, stroke: palette.line, width: 1 },
+    values: (_u, ticks) => (values ? values(ticks) : ticks.map((tick) => (tick === null ? "" : number(tick, 6)))),
+    ...(label === undefined ? {} : { label }),
+    ...(splits === undefined ? {} : { splits }),
+  };
+}
+
+export const percentTicks = (values: number[]) => values.map((value) => (value === null ? "" : `${number(100 * value, 3)} %`));
+
+/** Of a log axis: names powers of ten alone, so that they do not crowd. */
+export const powerTicks = (values: number[]) =>
+  values.map((value) => {
+    if (value === null || value <= 0) return "";
+    const power = Math.log10(value);
+    return Math.abs(power - Math.round(power)) < 1e-6 ? number(value, 3) : "";
+  });
+
+/** Pixels of the canvas to one of the page. */
+export const ratio = () => devicePixelRatio;
+
+/** Runs a drawing with the plot's area as its bounds. */
+export function drawInside(u: uPlot, draw: (context: CanvasRenderingContext2D) => void): void {
+  const { ctx, bbox } = u;
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+  ctx.clip();
+  draw(ctx);
+  ctx.restore();
+}
+
+/** A colour with an opacity. @param colour  "#rrggbb" */
+export function faded(colour: string, opacity: number): string {
+  return `${colour}${Math.round(255 * opacity).toString(16).padStart(2, "0")}`;
+}

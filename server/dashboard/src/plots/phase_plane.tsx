@@ -1,0 +1,101 @@
+import uPlot from "uplot";
+import { useEffect, useMemo, useRef } from "preact/hooks";
+import { Chart, axis, drawInside, faded, ratio } from "../chart";
+import type { TrialView } from "../documents";
+import type { Player } from "../player";
+import { turns } from "./time_series";
+import { stateAt } from "./robot";
+
+/** Angle and velocity of the passive joint, with the set from which a contraction cycle may begin. */
+export function PhasePlane({ view, player, height }: { view: TrialView; player: Player; height: number }) {
+  const { trajectory, phases, contraction_set: set } = view;
+  const point = useRef<{ dot: HTMLElement; chart: uPlot } | null>(null);
+  const [xs, ys] = useMemo(() => {
+    const goals = turns(view.references.q2_nearest, trajectory.q2);
+    const room = (low: number, high: number): [number, number] => [low - 0.06 * (high - low || 1), high + 0.06 * (high - low || 1)];
+    // A few violent moments must not press the rest into a line.
+    const speeds = [...trajectory.q2_dot].sort((a, b) => a - b);
+    const low = Math.min(0, speeds[Math.floor(0.004 * speeds.length)] ?? 0);
+    const high = Math.max(0, speeds[Math.ceil(0.996 * (speeds.length - 1))] ?? 0);
+    return [room(Math.min(...trajectory.q2, ...goals), Math.max(...trajectory.q2, ...goals)), room(low, high)] as const;
+  }, [view]);
+  const data = useMemo<uPlot.AlignedData>(() => [xs, [null, null]], [xs]);
+
+  const place = (t: number) => {
+    const now = point.current;
+    if (!now) return;
+    const state = stateAt(view, t);
+    now.dot.style.transform = `translate(${now.chart.valToPos(state.q2, "x").toFixed(1)}px, ${now.chart.valToPos(state.q2_dot, "y").toFixed(1)}px)`;
+  };
+  useEffect(() => player.follow(place), [player]);
+
+  return (
+    <Chart
+      label="Phase plane of the passive joint: velocity over angle, with the contraction set shaded"
+      height={height}
+      data={data}
+      version={`${view.index}`}
+      onChart={(chart) => {
+        point.current = null;
+        if (!chart) return;
+        const dot = document.createElement("div");
+        dot.className = "plane-dot";
+        chart.over.appendChild(dot);
+        point.current = { dot, chart };
+        place(player.t);
+      }}
+      build={(palette) => ({
+        legend: { show: false },
+        cursor: { show: false },
+        padding: [8, 10, 0, 0],
+        scales: { x: { time: false, range: xs }, y: { range: ys } },
+        axes: [axis(palette, "bottom", { label: "q₂ [rad]" }), axis(palette, "left", { label: "q̇₂ [rad/s]", size: 50 })],
+        series: [{}, {}],
+        hooks: {
+          setSize: [() => place(player.t)],
+          draw: [
+            (u) =>
+              drawInside(u, (context) => {
+                const x = (value: number) => u.valToPos(value, "x", true);
+                const y = (value: number) => u.valToPos(value, "y", true);
+                const far = set.sigma > 0 ? Math.max(ys[1], 0) : Math.min(ys[0], 0);
+                for (const goal of turns(set.q2_goal, [...xs])) {
+                  const entry = set.q2_entry + goal - set.q2_goal;
+                  const least = set.sigma * set.least_rate * Math.abs(set.q2_goal - set.q2_entry);
+                  context.fillStyle = faded(palette.phase.contraction, 0.22);
+                  context.strokeStyle = palette.phase.contraction;
+                  context.lineWidth = ratio();
+                  context.beginPath();
+                  context.moveTo(x(goal), y(0));
+                  context.lineTo(x(entry), y(least));
+                  context.lineTo(x(entry), y(far));
+                  context.lineTo(x(goal), y(far));
+                  context.closePath();
+                  context.fill();
+                  context.stroke();
+                }
+                context.lineJoin = "round";
+                context.lineWidth = 1.75 * ratio();
+                const draw = (first: number, last: number, colour: string) => {
+                  context.strokeStyle = colour;
+                  context.beginPath();
+                  for (let k = first; k <= last; ++k) context.lineTo(x(trajectory.q2[k] ?? 0), y(trajectory.q2_dot[k] ?? 0));
+                  context.stroke();
+                };
+                phases.kind.forEach((kind, k) => draw(phases.first[k] ?? 0, phases.last[k] ?? 0, palette.phase[kind]));
+                const listed = phases.last[phases.last.length - 1] ?? 0;
+                if (listed < trajectory.t.length - 1) draw(listed, trajectory.t.length - 1, palette.muted);
+                context.strokeStyle = palette.second;
+                context.lineWidth = 2 * ratio();
+                for (const goal of turns(set.q2_goal, [...xs])) {
+                  context.beginPath();
+                  context.arc(x(goal), y(0), 6 * ratio(), 0, 2 * Math.PI);
+                  context.stroke();
+                }
+              }),
+          ],
+        },
+      })}
+    />
+  );
+}

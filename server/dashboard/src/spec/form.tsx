@@ -1,0 +1,72 @@
+import type { ComponentChildren } from "preact";
+import { useId } from "preact/hooks";
+import { horizonField, nameField, samplingMethods, sections } from "./fields";
+import { GatesEditor } from "./gates_editor";
+import { type Edited, FieldEditor, Mistakes, ReadInput, mistakesAt } from "./inputs";
+import { isObject } from "./pointer";
+import { parseNumber } from "./value";
+
+/** The spec as a form. */
+export function SpecForm({ edited }: { edited: Edited }) {
+  return (
+    <div class="spec-form">
+      <div class="form-top">
+        <FieldEditor field={nameField} edited={edited} name="Name" />
+        <Sampling edited={edited} />
+        <FieldEditor field={horizonField} edited={edited} name="Horizon" />
+      </div>
+      {sections.slice(0, 3).map((section) => <FormSection key={section.key} sectionKey={section.key} title={section.title} description={section.description} isOpen={section.isOpen} edited={edited}>
+        {section.fields.map((field) => <FieldEditor key={field.path.join(".")} field={field} edited={edited} />)}
+      </FormSection>)}
+      <FormSection sectionKey="gates" title="Gates" description="What the statistics must show: pass, fail or inconclusive." isOpen={false} edited={edited}>
+        <GatesEditor edited={edited} />
+      </FormSection>
+      {sections.slice(3).map((section) => <FormSection key={section.key} sectionKey={section.key} title={section.title} description={section.description} isOpen={section.isOpen} edited={edited}>
+        {section.fields.map((field) => <FieldEditor key={field.path.join(".")} field={field} edited={edited} />)}
+      </FormSection>)}
+      <p class="note">Stopping rules, correlations, listed trials and the baseline's test are written in the JSON.</p>
+    </div>
+  );
+}
+
+function FormSection({ sectionKey, title, description, isOpen, edited, children }: { sectionKey: string; title: string; description: string; isOpen: boolean; edited: Edited; children: ComponentChildren }) {
+  const value = edited.get([sectionKey]);
+  const size = isObject(value) ? Object.keys(value).length : Array.isArray(value) ? value.length : value === undefined ? 0 : 1;
+  const mistakes = mistakesAt(edited.mistakes, [sectionKey]);
+  return (
+    <details class="form-section" open={isOpen || size > 0 || mistakes.length > 0}>
+      <summary><span>{title}</span>{size > 0 && <span class="badge">{size} set</span>}{mistakes.length > 0 && <span class="badge wrong">{mistakes.length} wrong</span>}</summary>
+      <p class="note">{description}</p>
+      {children}
+    </details>
+  );
+}
+
+function Sampling({ edited }: { edited: Edited }) {
+  const id = useId();
+  const method = edited.get(["sampling", "method"]);
+  const chosen = typeof method === "string" ? method : "monte_carlo";
+  const trials = edited.get(["sampling", "trials"]);
+  const seed = edited.get(["sampling", "seed"]);
+  const mistakes = mistakesAt(edited.mistakes, ["sampling"]);
+  const whole = (text: string) => {
+    if (text.trim() === "") return undefined;
+    const value = parseNumber(text.replace(/,/g, ""));
+    return value !== null && Number.isSafeInteger(value) ? value : null;
+  };
+  return (
+    <div class={`field sampling ${mistakes.length > 0 ? "wrong" : ""}`} data-pointer="/sampling">
+      <div class="field-name"><span>Sampling</span><span class="field-hint">How the numbers that vary get their values</span></div>
+      <div class="field-control">
+        <select aria-label="Sampling: method" value={chosen} aria-describedby={mistakes.length > 0 ? id : undefined} onChange={(event) => edited.set(["sampling", "method"], event.currentTarget.value)}>
+          {samplingMethods.map((each) => <option key={each.value} value={each.value}>{each.text}</option>)}
+        </select>
+        {chosen !== "grid" && chosen !== "explicit" && (
+          <ReadInput label={chosen === "sobol_indices" ? "Rows" : "Trials"} value={typeof trials === "number" ? trials : undefined} show={String} read={whole} onValue={(next) => edited.set(["sampling", "trials"], next)} placeholder="1" wrong="a whole number" inputMode="numeric" />
+        )}
+        <ReadInput label="Seed" value={typeof seed === "number" ? seed : undefined} show={String} read={whole} onValue={(next) => edited.set(["sampling", "seed"], next)} placeholder="1" wrong="a whole number" inputMode="numeric" />
+      </div>
+      <Mistakes mistakes={mistakes} id={id} />
+    </div>
+  );
+}
