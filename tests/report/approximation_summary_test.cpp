@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
+#include "json_text.hpp"
 #include "study/approximation_json.hpp"
 
 namespace steerstat {
@@ -85,7 +85,7 @@ TEST(ApproximationSummary, IsShownAsASquareAsAListAndAsJson) {
   const ApproximationSummary in_list = summarise(list, power_law(list, 2.0, -1.0));
   EXPECT_THAT(approximation_text(in_list, false), HasSubstr("cycle.q2_dot"));
   EXPECT_THAT(approximation_text(in_list, false), Not(HasSubstr("Fitted order")));
-  const auto json = nlohmann::json::parse(approximation_json(in_list));
+  const auto json = testing::json_of(approximation_json(in_list));
   EXPECT_EQ(json.at("cells").at(1).at("sweep").at("cycle.q2_dot"), 0.2);
   EXPECT_TRUE(json.at("orders").at("velocity_step").at("amplitude").is_null());
 }

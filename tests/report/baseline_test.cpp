@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "core/errors.hpp"
+#include "json_text.hpp"
 #include "sample_summary.hpp"
 #include "study/spec_json.hpp"
 
@@ -60,20 +60,20 @@ TEST(Baseline, IsRefusedWithEverythingThatIsAmiss) {
   for (const char* key : {"study", "complete", "outcomes"}) {
     EXPECT_THAT(of_nothing, HasSubstr(std::string("\"") + key + "\" is missing"));
   }
-  const Json good = Json::parse(summary_json(made_up_summary({70, 30, 0, 0, 0})));
-  ASSERT_EQ(mistakes_in(good.dump()), "");
+  const Json good = testing::ordered_json_of(summary_json(made_up_summary({70, 30, 0, 0, 0})));
+  ASSERT_EQ(mistakes_in(testing::text_of(good)), "");
   Json interrupted = good;
   interrupted["complete"] = false;
-  EXPECT_THAT(mistakes_in(interrupted.dump()), HasSubstr("/complete: the study was interrupted"));
+  EXPECT_THAT(mistakes_in(testing::text_of(interrupted)), HasSubstr("/complete: the study was interrupted"));
   Json empty = good;
   for (Json& count : empty["outcomes"]) count = 0;
-  EXPECT_THAT(mistakes_in(empty.dump()), HasSubstr("/outcomes: no trial has finished"));
+  EXPECT_THAT(mistakes_in(testing::text_of(empty)), HasSubstr("/outcomes: no trial has finished"));
   Json huge = good;
   for (Json& count : huge["outcomes"]) count = std::numeric_limits<std::uint64_t>::max();
-  EXPECT_THAT(mistakes_in(huge.dump()), HasSubstr("/outcomes: the counts add up to too much"));
+  EXPECT_THAT(mistakes_in(testing::text_of(huge)), HasSubstr("/outcomes: the counts add up to too much"));
   Json text = good;
   text["outcomes"]["timeout"] = "100";
-  EXPECT_THAT(mistakes_in(text.dump()), HasSubstr("/outcomes/timeout: \"100\" is not an integer"));
+  EXPECT_THAT(mistakes_in(testing::text_of(text)), HasSubstr("/outcomes/timeout: \"100\" is not an integer"));
   EXPECT_THAT(mistakes_in(summary_json(made_up_sweep(3))), HasSubstr("/cells: a study with sweeps"));
 }
 
@@ -129,13 +129,13 @@ TEST(JudgeAgainst, TellsTheDropAndWhatWouldHaveBeenFound) {
   EXPECT_EQ(gate.expr, "drop < 0.02");
   EXPECT_EQ(gate.value, comparison.drop->estimate);
   EXPECT_EQ(gate.interval, (SampleInterval{comparison.drop->low, comparison.drop->high}));
-  const Json json = Json::parse(summary_json(summary)).at("baseline");
+  const Json json = testing::ordered_json_of(summary_json(summary)).at("baseline");
   EXPECT_EQ(json.at("trials"), 1000);
   EXPECT_EQ(json.at("converged"), 900);
   EXPECT_EQ(json.at("level"), 0.05);
   EXPECT_EQ(json.at("detectable_drop").get<double>(), *detectable);
   EXPECT_EQ(json.at("drop").at("low").get<double>(), comparison.drop->low);
-  EXPECT_TRUE(Json::parse(summary_json(made_up_summary({7, 3, 0, 0, 0}))).at("baseline").is_null());
+  EXPECT_TRUE(testing::ordered_json_of(summary_json(made_up_summary({7, 3, 0, 0, 0}))).at("baseline").is_null());
 }
 
 TEST(JudgeAgainst, OfAnIncompleteRunIsNeverAPass) {

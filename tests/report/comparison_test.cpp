@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
+#include "json_text.hpp"
 #include "sample_comparison.hpp"
 
 namespace steerstat {
@@ -109,7 +109,7 @@ TEST(Compare, WarnsOfOtherEnginesInterruptedRunsAndLeftOverTrials) {
 
 TEST(ComparisonJson, HasNullWhereThereIsNoData) {
   const Finished a = ended_at({0, 0});
-  const auto json = nlohmann::json::parse(comparison_json(compare(a.compared(), a.compared())));
+  const auto json = testing::json_of(comparison_json(compare(a.compared(), a.compared())));
   EXPECT_TRUE(json.at("settling_time_difference").is_null());
   EXPECT_EQ(json.at("pairs").at("neither"), 2);
   EXPECT_EQ(json.at("success_rate").at("difference").at("estimate"), 0.0);

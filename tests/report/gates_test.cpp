@@ -3,8 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
+#include "json_text.hpp"
 #include "statistics/confidence_sequence.hpp"
 #include "study/spec_json.hpp"
 
@@ -184,7 +183,7 @@ TEST(JudgeGates, ShowInTheJsonAndTheTable) {
   const std::string gates = R"({"metric": "success_rate", "expr": "0.9<ci_low"},
       {"metric": "settling_time", "expr": "p95 < 20", "scope": "each_cell"}, {"metric": "cycles", "expr": "max < 9"})";
   const Summary summary = summary_of(gates, converged(50, 100), 100);
-  const auto json = nlohmann::ordered_json::parse(summary_json(summary)).at("gates");
+  const auto json = testing::ordered_json_of(summary_json(summary)).at("gates");
   ASSERT_EQ(json.size(), 3U);
   EXPECT_EQ(json[0].at("metric"), "success_rate");
   EXPECT_EQ(json[0].at("expr"), "ci_low > 0.9");

@@ -5,8 +5,8 @@
 
 #include <cmath>
 #include <functional>
-#include <nlohmann/json.hpp>
 
+#include "json_text.hpp"
 #include "report/summary.hpp"
 #include "study/spec_json.hpp"
 
@@ -140,7 +140,7 @@ TEST(Summarise, CountsOnlyTheIndependentTrialsOfAPickFreezeDesign) {
   EXPECT_EQ(summary.all.outcomes[0], converged);
   EXPECT_EQ(summary.all.success_rate->estimate, static_cast<double>(converged) / 200.0);
   ASSERT_TRUE(summary.sensitivity);
-  const Json json = Json::parse(summary_json(summary));
+  const Json json = testing::ordered_json_of(summary_json(summary));
   EXPECT_EQ(json["trials"]["completed"], 500);
   EXPECT_EQ(json["sensitivity"]["independent_trials"], 200);
   EXPECT_EQ(json["sensitivity"]["rows"]["success"], 100);
@@ -214,7 +214,7 @@ SensitivityReport report_of(const Study& study, const StudyResult& result) {
 TEST(SensitivityJson, HasBothKindsOfIndices) {
   const Study study = indices_study(100);
   const SensitivityReport report = report_of(study, run_by(study, cliff_in_m1));
-  const Json json = Json::parse(sensitivity_json(report));
+  const Json json = testing::ordered_json_of(sensitivity_json(report));
   EXPECT_EQ(json["study"]["id"], "0123456789abcdef");
   EXPECT_EQ(json["given_data"]["outputs"][0]["metric"], "success");
   EXPECT_EQ(json["given_data"]["outputs"][0]["trials"], 200);

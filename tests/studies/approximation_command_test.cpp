@@ -1,8 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
+#include "json_text.hpp"
 #include "process.hpp"
 
 namespace steerstat::testing {
@@ -19,10 +18,10 @@ TEST(ApproximationCommand, RunsPrintsTablesAndWritesItsSummary) {
   const Ending text = steerstat({"run", file, "--summary", scratch / "summary.json"});
   EXPECT_EQ(text.exit_code, 0) << text.err;
   EXPECT_THAT(text.out, HasSubstr("Fitted order"));
-  const auto json = nlohmann::json::parse(read_file(scratch / "summary.json"));
+  const auto json = json_of(read_file(scratch / "summary.json"));
   EXPECT_EQ(json.at("cells").size(), 4U);
   const Ending printed = steerstat({"run", file, "--summary", "-"});
-  EXPECT_EQ(nlohmann::json::parse(printed.out), json);
+  EXPECT_EQ(json_of(printed.out), json);
   EXPECT_THAT(steerstat({"validate", file}).out, HasSubstr("80 (4 cells of 20)"));
 }
 

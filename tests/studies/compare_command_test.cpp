@@ -1,8 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
+#include "json_text.hpp"
 #include "process.hpp"
 
 namespace steerstat::testing {
@@ -30,7 +29,7 @@ TEST(CompareCommand, PairsTwoRunsAndItsDiscordantTrialsReplayToTheirEnds) {
   EXPECT_THAT(text.out, HasSubstr("only the 40 trials that both have are paired"));
 
   const Ending ending = steerstat({"compare", a, b, "--json"});
-  const auto json = nlohmann::json::parse(ending.out);
+  const auto json = json_of(ending.out);
   EXPECT_EQ(json.at("pairs").at("total"), 40);
   const auto& discordant = json.at("discordant").at("b_only");
   ASSERT_GT(discordant.at("count"), 0) << "eta2 0.8 keeps more speed, so that more trials arrive";

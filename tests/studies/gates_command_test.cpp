@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
-#include <nlohmann/json.hpp>
 
+#include "json_text.hpp"
 #include "process.hpp"
 
 namespace steerstat::testing {
@@ -45,7 +45,7 @@ TEST(GatesCommand, WritesEverythingWhateverTheVerdict) {
                                 scratch / "a.xml", "--markdown", scratch / "a.md"});
   EXPECT_EQ(run.exit_code, 1) << run.err;
   EXPECT_THAT(scratch.names(), ElementsAre("a.h5", "a.json", "a.md", "a.xml", "spec.json"));
-  const Json gates = Json::parse(read_file(scratch / "a.json")).at("gates");
+  const Json gates = json_of(read_file(scratch / "a.json")).at("gates");
   ASSERT_EQ(gates.size(), 3U);
   EXPECT_EQ(gates[0].at("verdict"), "pass");
   EXPECT_EQ(gates[1].at("verdict"), "fail");
@@ -57,7 +57,7 @@ TEST(GatesCommand, WritesEverythingWhateverTheVerdict) {
   const Ending show =
       steerstat({"show", scratch / "a.h5", "--json", "--junit", scratch / "b.xml", "--markdown", scratch / "b.md"});
   EXPECT_EQ(show.exit_code, 0) << "show shows; run judges";
-  EXPECT_EQ(Json::parse(show.out).at("gates"), gates);
+  EXPECT_EQ(json_of(show.out).at("gates"), gates);
   EXPECT_EQ(read_file(scratch / "b.xml"), read_file(scratch / "a.xml"));
 }
 
@@ -99,7 +99,7 @@ TEST(GatesCommand, AnInterruptionIsWhatTheExitCodeTells) {
   ASSERT_TRUE(process.shows("/s  "));
   process.send(SIGINT);
   EXPECT_EQ(process.wait().exit_code, 130);
-  const Json summary = Json::parse(read_file(scratch / "a.json"));
+  const Json summary = json_of(read_file(scratch / "a.json"));
   EXPECT_FALSE(summary.at("complete").get<bool>());
   for (const Json& gate : summary.at("gates")) EXPECT_NE(gate.at("verdict"), "pass");
 }
@@ -110,21 +110,21 @@ TEST(BaselineCommand, GatesOnADrop) {
   ASSERT_EQ(steerstat({"run", spec, "--summary", scratch / "before.json"}).exit_code, 0);
   const Ending same = steerstat({"run", spec, "--baseline", scratch / "before.json", "--summary", scratch / "a.json"});
   EXPECT_EQ(same.exit_code, 0) << same.err << same.out;
-  const Json summary = Json::parse(read_file(scratch / "a.json"));
+  const Json summary = json_of(read_file(scratch / "a.json"));
   EXPECT_EQ(summary.at("baseline").at("converged"), 400);
   EXPECT_EQ(summary.at("gates").at(0).at("expr"), "drop < 0.02");
   EXPECT_THAT(same.out, HasSubstr("pass     success_rate drop < 0.02"));
 
-  Json changed = Json::parse(read_file(spec));
+  Json changed = json_of(read_file(spec));
   changed["controller"]["alignment"]["kd"] = 1;
   const Ending dropped =
-      steerstat({"run", scratch.file("kd.json", changed.dump()), "--baseline", scratch / "before.json"});
+      steerstat({"run", scratch.file("kd.json", text_of(changed)), "--baseline", scratch / "before.json"});
   EXPECT_EQ(dropped.exit_code, 1) << dropped.out;
 
-  changed = Json::parse(read_file(spec));
+  changed = json_of(read_file(spec));
   changed["sampling"]["trials"] = 20;
   const Ending starved =
-      steerstat({"run", scratch.file("few.json", changed.dump()), "--baseline", scratch / "before.json"});
+      steerstat({"run", scratch.file("few.json", text_of(changed)), "--baseline", scratch / "before.json"});
   EXPECT_EQ(starved.exit_code, 3) << starved.out;
 }
 

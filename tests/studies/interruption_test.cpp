@@ -7,9 +7,9 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <thread>
 
+#include "json_text.hpp"
 #include "process.hpp"
 #include "store/result_file.hpp"
 
@@ -52,7 +52,7 @@ TEST_P(Interruption, KeepsWhatIsFinishedAndExitsWith130) {
   EXPECT_GT(kept, 0U);
   EXPECT_LT(kept, 1000000U);
   EXPECT_EQ(kept % block_size(stored.study), 0U);
-  const Json summary = Json::parse(read_file(scratch / "out.json"));
+  const Json summary = json_of(read_file(scratch / "out.json"));
   EXPECT_FALSE(summary.at("complete").get<bool>());
   EXPECT_EQ(summary.at("trials").at("requested"), 1000000);
   EXPECT_EQ(summary.at("trials").at("completed"), kept);
@@ -108,7 +108,7 @@ TEST_P(Interruption, AfterTheLastTrialCostsNothing) {
   Process process(STEERSTAT_PROGRAM, {"run", spec, "-o", scratch / "out.h5", "--summary", scratch / "summary"});
   while (!std::filesystem::exists(scratch / "out.h5")) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   process.send(GetParam());  // while it waits for a reader of its summary
-  EXPECT_TRUE(Json::parse(read_file(scratch / "summary")).at("complete").get<bool>());
+  EXPECT_TRUE(json_of(read_file(scratch / "summary")).at("complete").get<bool>());
   EXPECT_EQ(process.wait().exit_code, 0);
   EXPECT_TRUE(read_result(scratch / "out.h5").result.complete);
 }

@@ -5,10 +5,10 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "control/phase.hpp"
+#include "json_text.hpp"
 #include "process.hpp"
 #include "store/result_file.hpp"
 #include "study/plan.hpp"
@@ -83,7 +83,7 @@ TEST_F(Replay, JsonAndCsvHoldTheSameNumbers) {
   ASSERT_EQ(steerstat({"replay", file_, "--trial", "3", "-o", scratch_ / "3.json"}).exit_code, 0);
   ASSERT_EQ(steerstat({"replay", file_, "--trial", "3", "-o", scratch_ / "3.csv"}).exit_code, 0);
   const Rows rows = parse_csv(read_file(scratch_ / "3.csv"));
-  const Json json = Json::parse(read_file(scratch_ / "3.json"));
+  const Json json = json_of(read_file(scratch_ / "3.json"));
   for (std::size_t column = 0; column < 8; ++column) {
     const Json& values = json.at("trajectory").at(rows[0][column]);
     ASSERT_EQ(values.size(), rows.size() - 1);

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
+#include "json_text.hpp"
 #include "process.hpp"
 #include "store/result_file.hpp"
 #include "study/plan.hpp"
@@ -53,8 +53,8 @@ TEST(RunCommand, ShowGivesTheSummaryOfTheRun) {
   const std::string spec = scratch.file("spec.json", perturbed);
   const Ending run = steerstat({"run", spec, "-o", scratch / "out.h5", "--summary", scratch / "out.json"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  Json of_run = Json::parse(read_file(scratch / "out.json"));
-  Json shown = Json::parse(steerstat({"show", scratch / "out.h5", "--json"}).out);
+  Json of_run = json_of(read_file(scratch / "out.json"));
+  Json shown = json_of(steerstat({"show", scratch / "out.h5", "--json"}).out);
   EXPECT_EQ(of_run.at("trials").at("completed"), 40);
   EXPECT_GT(of_run.at("performance").at("wall_s"), 0.0);
   of_run.erase("performance");  // of the run, not of the trials
@@ -75,12 +75,12 @@ TEST(RunCommand, AuditsSixteenTrialsOfAStudyThatDoesNotSayHowMany) {
   const std::string spec = scratch.file("spec.json", text);
   const Ending run = steerstat({"run", spec, "-o", scratch / "out.h5", "--summary", scratch / "out.json"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  const Json audit = Json::parse(read_file(scratch / "out.json")).at("audit");
+  const Json audit = json_of(read_file(scratch / "out.json")).at("audit");
   EXPECT_EQ(audit.at("trials"), 16);
   EXPECT_EQ(audit.at("agree"), 16);
   EXPECT_EQ(audit.at("disagree"), Json::array());
   EXPECT_THAT(run.out, HasSubstr("Audit  16 of 16 trials agree with SUNDIALS at tolerance 1e-11"));
-  EXPECT_EQ(Json::parse(steerstat({"show", scratch / "out.h5", "--json"}).out).at("audit"), audit);
+  EXPECT_EQ(json_of(steerstat({"show", scratch / "out.h5", "--json"}).out).at("audit"), audit);
 }
 
 TEST(RunCommand, WithoutAnOutputOnlyPrintsTheSummary) {
@@ -100,7 +100,7 @@ TEST(RunCommand, ReadsASpecFromStandardInputAndPrintsTheSummaryAsJson) {
   surroundings.input = R"({"horizon": 1})";
   const Ending run = steerstat({"run", "-", "--summary", "-"}, surroundings);
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  const Json summary = Json::parse(run.out);
+  const Json summary = json_of(run.out);
   EXPECT_EQ(summary.at("outcomes").at("timeout"), 1);
   EXPECT_TRUE(summary.at("complete").get<bool>());
 }
@@ -132,7 +132,7 @@ TEST(RunCommand, OverwritesAnEarlierResultAndLeavesNothingElseBehind) {
   const Ending run = steerstat({"run", spec, "-o", scratch / "out.h5", "--summary", scratch / "out.json"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_TRUE(read_result(scratch / "out.h5").result.complete);
-  EXPECT_TRUE(Json::parse(read_file(scratch / "out.json")).at("complete").get<bool>());
+  EXPECT_TRUE(json_of(read_file(scratch / "out.json")).at("complete").get<bool>());
   EXPECT_THAT(scratch.names(), ElementsAre("out.h5", "out.json", "spec.json"));
 }
 
@@ -185,7 +185,7 @@ TEST(RunCommand, WritesThroughALink) {
   std::filesystem::create_symlink("target.json", scratch / "link.json");
   ASSERT_EQ(steerstat({"run", spec, "--summary", scratch / "link.json"}).exit_code, 0);
   EXPECT_TRUE(std::filesystem::is_symlink(scratch / "link.json"));
-  EXPECT_TRUE(Json::parse(read_file(scratch / "target.json")).at("complete").get<bool>());
+  EXPECT_TRUE(json_of(read_file(scratch / "target.json")).at("complete").get<bool>());
 }
 
 TEST(ValidateCommand, TellsWhatWouldBeRun) {

@@ -1,8 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
+#include "json_text.hpp"
 #include "process.hpp"
 
 namespace steerstat::testing {
@@ -21,7 +20,7 @@ TEST(ShowSensitivity, NamesTheFrictionThatHasACliff) {
   ASSERT_EQ(steerstat({"run", spec, "-o", scratch / "r.h5", "--no-progress"}).exit_code, 0);
   const Ending shown = steerstat({"show", scratch / "r.h5", "--sensitivity", "--json"});
   EXPECT_EQ(shown.exit_code, 0);
-  const json report = json::parse(shown.out);
+  const json report = json_of(shown.out);
   EXPECT_EQ(report["sobol_indices"], nullptr);
   const json& outputs = report["given_data"]["outputs"];
   ASSERT_EQ(outputs.size(), 2U);
@@ -45,9 +44,9 @@ TEST(ShowSensitivity, HasTheSummarysSobolIndicesToo) {
   const std::string spec = scratch.file("spec.json", std::string(cliff_spec) + R"(sobol_indices", "trials": 100}})");
   ASSERT_EQ(
       steerstat({"run", spec, "-o", scratch / "r.h5", "--summary", scratch / "s.json", "--no-progress"}).exit_code, 0);
-  const json summary = json::parse(read_file(scratch / "s.json"));
+  const json summary = json_of(read_file(scratch / "s.json"));
   EXPECT_EQ(summary["trials"]["completed"], 400);
-  const json report = json::parse(steerstat({"show", scratch / "r.h5", "--sensitivity", "--json"}).out);
+  const json report = json_of(steerstat({"show", scratch / "r.h5", "--sensitivity", "--json"}).out);
   EXPECT_EQ(report["sobol_indices"], summary["sensitivity"]);
   EXPECT_EQ(report["given_data"]["outputs"][0]["trials"], 200);
   EXPECT_GT(summary["sensitivity"]["success"][1]["total_ci_low"].get<double>(), 0.5);

@@ -4,10 +4,12 @@
 
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
+
+#include "json_text.hpp"
 
 namespace steerstat {
 namespace {
@@ -129,7 +131,9 @@ TEST(Range, SupportsFitWhenEveryDrawDoes) {
 
 TEST(Inputs, AreWhatTheSchemaLetsASpecCorrelate) {
   std::ifstream file(STEERSTAT_SOURCE_DIR "/schemas/study.schema.json");
-  const auto schema = nlohmann::json::parse(file);
+  std::ostringstream text;
+  text << file.rdbuf();
+  const auto schema = testing::json_of(text.str());
   EXPECT_EQ(schema["$defs"]["input_name"]["enum"].get<std::vector<std::string>>(), input_names());
 }
 
