@@ -11,6 +11,7 @@
 #include "study/limits.hpp"
 #include "study/nearest.hpp"
 #include "study/rate.hpp"
+#include "study/unmeasured_json.hpp"
 #include "trial/metric.hpp"
 
 namespace steerstat {
@@ -25,10 +26,11 @@ std::vector<std::string_view> names_to_judge() {
   return names;
 }
 
-std::optional<std::string> decode_metric(const Reader& reader) {
+std::optional<std::string> decode_metric(const Reader& reader, bool measured) {
   const std::vector<std::string_view> names = names_to_judge();
   const auto position = reader.one_of(names);
   if (!position) return std::nullopt;
+  if (!measured) refuse_unmeasured(reader, names[*position]);
   return std::string(names[*position]);
 }
 
@@ -121,13 +123,14 @@ void decode_cell(const Reader& reader, const std::vector<Input>& inputs, const s
   reader.refuse_unknown_keys(swept);
 }
 
-Gate decode_gate(const Reader& reader, const std::vector<Input>& inputs, const std::vector<std::string>& mistaken) {
+Gate decode_gate(const Reader& reader, const std::vector<Input>& inputs, bool measured,
+                 const std::vector<std::string>& mistaken) {
   static constexpr std::array<std::string_view, 4> known{"metric", "expr", "scope", "cell"};
   Gate gate;
   if (!reader.require_object("an object {\"metric\", \"expr\"}")) return gate;
   reader.refuse_unknown_keys(known);
   const auto metric = reader.require("metric");
-  const auto name = metric ? decode_metric(*metric) : std::nullopt;
+  const auto name = metric ? decode_metric(*metric, measured) : std::nullopt;
   gate.metric = name.value_or(gate.metric);
   const auto expression = reader.require("expr");
   if (expression) gate.expression = decode_expression(*expression, name).value_or(gate.expression);
@@ -145,7 +148,7 @@ Gate decode_gate(const Reader& reader, const std::vector<Input>& inputs, const s
 
 }  // namespace
 
-std::vector<Gate> decode_gates(const Reader& reader, const std::vector<Input>& inputs,
+std::vector<Gate> decode_gates(const Reader& reader, const std::vector<Input>& inputs, bool measured,
                                const std::vector<std::string>& mistaken) {
   std::vector<Gate> gates;
   if (!reader.require_array("an array of gates [{\"metric\", \"expr\"}, ...]")) return gates;
@@ -154,7 +157,7 @@ std::vector<Gate> decode_gates(const Reader& reader, const std::vector<Input>& i
     reader.fail(fmt::format("{} gates (at most {}); remove some", size, most_gates));
     return gates;
   }
-  for (std::size_t i = 0; i < size; ++i) gates.push_back(decode_gate(reader.element(i), inputs, mistaken));
+  for (std::size_t i = 0; i < size; ++i) gates.push_back(decode_gate(reader.element(i), inputs, measured, mistaken));
   return gates;
 }
 

@@ -12,9 +12,10 @@ namespace steerstat {
 /// Decodes a spec's `gates`.
 ///
 /// @param inputs    the study's, decoded: a gate's cell names what is swept
+/// @param measured  whether the study measures optional metrics; a gate on one that it leaves out is a mistake
 /// @param mistaken  names of inputs with mistakes of their own: nothing is said of gates on their cells
 /// @return with what could be read where mistakes were noted
-std::vector<Gate> decode_gates(const Reader& reader, const std::vector<Input>& inputs,
+std::vector<Gate> decode_gates(const Reader& reader, const std::vector<Input>& inputs, bool measured,
                                const std::vector<std::string>& mistaken);
 
 /// Gates as a spec writes them, each expression with its quantity first.

@@ -66,16 +66,18 @@ class Decoder {
       study_.sampling = decode_sampling(*sampling, directory_, study_.inputs, mistaken_);
       if (errors_.size() != start) mistaken_.emplace_back("sampling");
     }
+    if (const auto metrics = root_.find("metrics")) {
+      study_.integrator.metrics = metrics->boolean().value_or(study_.integrator.metrics);
+    }
     if (const auto stop = root_.find("stop")) decode_stop_rule(*stop);
     if (const auto retain = root_.find("retain")) decode_retention(*retain);
     if (const auto audit = root_.find("audit")) decode_audit(*audit);
     const bool stops = root_.find("stop").has_value();
     study_.intervals = default_intervals(stops);
     if (const auto intervals = root_.find("intervals")) study_.intervals = decode_intervals(*intervals, stops);
-    if (const auto metrics = root_.find("metrics")) {
-      study_.integrator.metrics = metrics->boolean().value_or(study_.integrator.metrics);
+    if (const auto gates = root_.find("gates")) {
+      study_.gates = decode_gates(*gates, study_.inputs, study_.integrator.metrics, mistaken_);
     }
-    if (const auto gates = root_.find("gates")) study_.gates = decode_gates(*gates, study_.inputs, mistaken_);
     if (const auto baseline = root_.find("baseline")) study_.baseline_test = decode_baseline_test(*baseline);
     check_rules(study_, mistaken_, errors_);
     return study_;
@@ -219,8 +221,9 @@ class Decoder {
     // Where the sampling has mistakes, the numbers of trials are not held against its own.
     Sampling unknown;
     unknown.trials = most_trials;
-    study_.stop = is_mistaken("sampling") ? decode_stop(reader, unknown, false)
-                                          : decode_stop(reader, study_.sampling, trials_are_given);
+    const bool measured = study_.integrator.metrics;
+    study_.stop = is_mistaken("sampling") ? decode_stop(reader, unknown, false, measured)
+                                          : decode_stop(reader, study_.sampling, trials_are_given, measured);
     if (errors_.size() != before) mistaken_.emplace_back("stop");
   }
 

@@ -8,6 +8,7 @@
 #include "study/intervals_json.hpp"
 #include "study/limits.hpp"
 #include "study/rate.hpp"
+#include "study/unmeasured_json.hpp"
 #include "trial/metric.hpp"
 
 namespace steerstat {
@@ -40,7 +41,7 @@ void decode_width(const Reader& reader, bool is_rate, PrecisionGoal& goal) {
   }
 }
 
-PrecisionGoal decode_goal(const Reader& reader) {
+PrecisionGoal decode_goal(const Reader& reader, bool measured) {
   PrecisionGoal goal;
   if (!reader.require_object("an object {\"metric\", \"half_width\"}")) return goal;
   static constexpr std::array<std::string_view, 4> known{"metric", "quantile", "half_width", "relative_half_width"};
@@ -50,6 +51,7 @@ PrecisionGoal decode_goal(const Reader& reader) {
   const auto position = metric ? metric->one_of(names) : std::nullopt;
   if (!position) return goal;
   goal.metric = names[*position];
+  if (!measured) refuse_unmeasured(*metric, goal.metric);
   const bool is_rate = outcome_of_rate(goal.metric).has_value();
   const auto quantile = reader.find("quantile");
   if (is_rate && quantile) {
@@ -64,7 +66,7 @@ PrecisionGoal decode_goal(const Reader& reader) {
   return goal;
 }
 
-void decode_goals(const Reader& reader, StopRule& rule) {
+void decode_goals(const Reader& reader, bool measured, StopRule& rule) {
   if (!reader.require_array("an array of goals {\"metric\", \"half_width\"}")) return;
   const std::size_t size = reader.value().size();
   if (size == 0 || size > most_precision_goals) {
@@ -72,7 +74,7 @@ void decode_goals(const Reader& reader, StopRule& rule) {
                             size == 0 ? "ask for at least one" : "keep those that matter"));
     return;
   }
-  for (std::size_t i = 0; i < size; ++i) rule.until.push_back(decode_goal(reader.element(i)));
+  for (std::size_t i = 0; i < size; ++i) rule.until.push_back(decode_goal(reader.element(i), measured));
 }
 
 /// Checks the counts of draws against each other and against the sampling.
@@ -105,7 +107,7 @@ void decode_counts(const Reader& reader, Sampling& sampling, bool trials_are_giv
 
 }  // namespace
 
-std::optional<StopRule> decode_stop(const Reader& reader, Sampling& sampling, bool trials_are_given) {
+std::optional<StopRule> decode_stop(const Reader& reader, Sampling& sampling, bool trials_are_given, bool measured) {
   if (!reader.require_object("an object {\"until\", \"check_every\", ...}")) return std::nullopt;
   const std::size_t mistakes = reader.errors().size();
   static constexpr std::array<std::string_view, 5> known{"min_trials", "max_trials", "check_every", "level", "until"};
@@ -114,7 +116,7 @@ std::optional<StopRule> decode_stop(const Reader& reader, Sampling& sampling, bo
   if (const auto level = reader.find("level")) {
     rule.level = level->number_in(confidence_levels, "stop.level").value_or(rule.level);
   }
-  if (const auto until = reader.require("until")) decode_goals(*until, rule);
+  if (const auto until = reader.require("until")) decode_goals(*until, measured, rule);
   decode_counts(reader, sampling, trials_are_given, rule);
   if (reader.errors().size() != mistakes) return std::nullopt;
   return rule;

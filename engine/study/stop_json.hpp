@@ -14,8 +14,9 @@ namespace steerstat {
 ///
 /// @param sampling         the study's; its trials are changed
 /// @param trials_are_given  whether the spec says how many trials the sampling has
+/// @param measured         whether the study measures optional metrics; a goal on one that it leaves out is a mistake
 /// @return nothing where mistakes were noted
-std::optional<StopRule> decode_stop(const Reader& reader, Sampling& sampling, bool trials_are_given);
+std::optional<StopRule> decode_stop(const Reader& reader, Sampling& sampling, bool trials_are_given, bool measured);
 
 /// The rule as a spec writes it.
 nlohmann::json encode_stop(const StopRule& rule);

@@ -13,6 +13,7 @@ struct Metric {
   std::string_view name;
   std::string_view unit;                 ///< "1" where it has none
   double (*value)(const TrialOutcome&);  ///< NaN for a trial that does not have it, never infinite
+  bool optional{false};                  ///< left out where IntegratorChoice::metrics is false
 };
 
 inline constexpr std::size_t metric_count = 10;
