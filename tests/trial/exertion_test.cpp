@@ -9,6 +9,7 @@
 #include "combined_study.hpp"
 #include "core/elementary.hpp"
 #include "every_method.hpp"
+#include "imperfect_study.hpp"
 #include "integrate/cvode_integrator.hpp"
 #include "integrate/lockstep_integrator.hpp"
 #include "trial/course.hpp"
@@ -17,8 +18,6 @@
 /// The effort and the peaks that a trial reports.
 namespace steerstat::testing {
 namespace {
-
-class TrialExertion : public EveryMethod {};
 
 /// Measures a trial's phases on their dense output: samples, Simpson's rule, and the parabolas through the highest.
 class BruteForce final : public StepObserver {
@@ -50,6 +49,7 @@ class BruteForce final : public StepObserver {
     exertion.effort += sum * (to - from) / (3.0 * intervals);
     raise(exertion.peak_acceleration, a);
     raise(exertion.peak_force, tau);
+    exertion.peak_force = std::min(exertion.peak_force, loop_.actuator.max_force);  // no parabola fits its corner there
     raise(exertion.peak_stroke, stroke);
   }
 
@@ -83,11 +83,14 @@ Exertion brute_force(const TrialParameters& trial, Integrator integrator) {
   return measured.exertion;
 }
 
-TEST_P(TrialExertion, IsThatOfTheTrajectorySampledFinely) {
-  const bool lockstep = GetParam() == IntegratorChoice::Method::lockstep;
-  for (const TrialParameters& trial : combined_study(lockstep ? 200 : 10)) {
+class TrialExertion : public EveryMethod {
+ protected:
+  [[nodiscard]] static bool is_lockstep() { return GetParam() == IntegratorChoice::Method::lockstep; }
+
+  static void expect_as_sampled(const TrialParameters& trial) {
     const Exertion expected =
-        lockstep ? brute_force(trial, LockstepIntegrator(1e-9)) : brute_force(trial, CvodeIntegrator(1e-9));
+        is_lockstep() ? brute_force(trial, LockstepIntegrator(1e-9, best_instruction_set(), 0, loop_kind_of(trial)))
+                      : brute_force(trial, CvodeIntegrator(1e-9));
     const TrialOutcome outcome = run(trial);
     constexpr double precision = 1e-6;
     EXPECT_NEAR(outcome.effort, expected.effort, precision * expected.effort);
@@ -95,6 +98,15 @@ TEST_P(TrialExertion, IsThatOfTheTrajectorySampledFinely) {
     EXPECT_NEAR(outcome.peak_force, expected.peak_force, precision * expected.peak_force);
     EXPECT_NEAR(outcome.peak_stroke, expected.peak_stroke, precision * expected.peak_stroke);
   }
+};
+
+TEST_P(TrialExertion, IsThatOfTheTrajectorySampledFinely) {
+  for (const TrialParameters& trial : combined_study(is_lockstep() ? 200 : 10)) expect_as_sampled(trial);
+}
+
+/// The force is the one applied: of the actuator's gain, and held at its limit.
+TEST_P(TrialExertion, WithImperfectionsIsThatOfTheTrajectorySampledFinely) {
+  for (const TrialParameters& trial : imperfect_study(is_lockstep() ? 40 : 4)) expect_as_sampled(trial);
 }
 
 TEST_P(TrialExertion, IsThatOfATighterReferenceOnTrialsOfTheSameCourse) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/elementary.hpp"
+#include "nightly.hpp"
 #include "study/plan.hpp"
 #include "study/spec_json.hpp"
 #include "trial/replay.hpp"
@@ -20,11 +21,10 @@
 namespace steerstat {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr std::uint64_t compared_trials = 50;  // the reference is slow there
-#else
-constexpr std::uint64_t compared_trials = 5000;
-#endif
+/// Trials to compare with the reference, which is slow; slower still beside sanitizers.
+std::uint64_t compared_trials() {
+  return testing::is_sanitized ? 50 : testing::is_nightly() ? 5000 : 1500;
+}
 
 std::vector<TrialParameters> combined_trials(std::uint64_t first, std::uint64_t count) {
   const std::string path = STEERSTAT_SOURCE_DIR "/studies/specs/robustness/combined.json";
@@ -164,7 +164,7 @@ TEST(LockstepRunner, ConvergesInThePapersTimesAndMeetsTheDipFixture) {
 
 /// Two engines, two methods, one answer: the same decisions at the same times.
 TEST(LockstepRunner, AgreesWithTheReferenceOnTheCombinedStudy) {
-  const std::vector<TrialParameters> trials = combined_trials(0, compared_trials);
+  const std::vector<TrialParameters> trials = combined_trials(0, compared_trials());
   LockstepRunner lockstep(1e-10, best_instruction_set());
   const auto reference_runner = make_runner({IntegratorChoice::Method::cvode, 1e-12});
   const auto ours = run(lockstep, trials, all_of(trials));
