@@ -53,6 +53,14 @@ export const statusMeaning: Record<Status, string> = {
   integrator_failed: "The step size fell below 1e-12 s.",
 };
 
+/** For bands too narrow for the whole word. */
+export const phaseShort: Record<PhaseKind, readonly [string, string]> = {
+  align: ["align", "A"],
+  drift: ["drift", "D"],
+  contraction: ["contr.", "C"],
+  swing: ["swing", "S"],
+};
+
 export const phaseWords: Record<PhaseKind, string> = {
   align: "alignment",
   drift: "drift",

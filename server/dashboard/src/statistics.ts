@@ -15,6 +15,7 @@ export const binCount = (axis: Axis) => (axis.levels ?? axis.edges?.slice(1) ?? 
 
 /** Number of the bin that a value falls into, -1 where in none: [edge k, edge k + 1), the last one closed, or the level. */
 export function binOf(axis: Axis, value: number): number {
+  if (Number.isNaN(value)) return -1;
   if (axis.levels) {
     // Values and levels are both rounded to 6 digits, so the nearest is the one.
     let best = -1;

@@ -55,7 +55,9 @@ export function ContractionPlot({ contraction, of, height }: { contraction: Cont
                   context.setLineDash([]);
                   context.fillStyle = palette.muted;
                   context.font = `${11 * ratio()}px system-ui, sans-serif`;
-                  context.fillText("tolerance of ε", u.bbox.left + 6 * ratio(), y(contraction.tolerance) - 5 * ratio());
+                  context.textAlign = "left";
+                  context.textBaseline = "bottom";
+                  context.fillText("tolerance of ε", u.bbox.left + 6 * ratio(), y(contraction.tolerance) - 3 * ratio());
                 }
                 for (let k = 0; k < size; ++k) {
                   const from = before[k] ?? 0;

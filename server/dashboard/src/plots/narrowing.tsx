@@ -15,11 +15,11 @@ export function Narrowing({ view }: { view: StudyView }) {
       label={`Success rate against the number of trials: ${percentOf(narrowing.estimate[last] ?? null, narrowing.low[last] ?? null, narrowing.high[last] ?? null)} after ${count(narrowing.of)}`}
       height={220}
       data={data}
-      version={isLog ? "log" : "linear"}
+      version={`${isLog} ${narrowing.trials[last]}`}
       build={(palette) => ({
         legend: { show: false },
         cursor: { drag: { x: false, y: false }, points: { show: false } },
-        scales: { x: { time: false, distr: isLog ? 3 : 1 }, y: { range: [0, 1] } },
+        scales: { x: { time: false, distr: isLog ? 3 : 1, range: [narrowing.trials[0] ?? 1, Math.max(2, narrowing.trials[last] ?? 2)] }, y: { range: [0, 1] } },
         axes: [
           axis(palette, "bottom", { label: "trials", ...(isLog ? { values: powerTicks } : {}) }),
           axis(palette, "left", { values: percentTicks }),

@@ -6,6 +6,15 @@ import type { Player } from "../player";
 import { turns } from "./time_series";
 import { stateAt } from "./robot";
 
+/** From the least to the greatest speed; where a few violent moments would press the rest into a line, without them. */
+export function speedRange(speeds: readonly number[]): [number, number] {
+  const sorted = [...speeds].sort((a, b) => a - b);
+  const at = (share: number) => sorted[Math.round(share * (sorted.length - 1))] ?? 0;
+  const whole: [number, number] = [Math.min(0, at(0)), Math.max(0, at(1))];
+  const most: [number, number] = [Math.min(0, at(0.01)), Math.max(0, at(0.99))];
+  return whole[1] - whole[0] > 5 * (most[1] - most[0]) ? most : whole;
+}
+
 /** Angle and velocity of the passive joint, with the set from which a contraction cycle may begin. */
 export function PhasePlane({ view, player, height }: { view: TrialView; player: Player; height: number }) {
   const { trajectory, phases, contraction_set: set } = view;
@@ -13,11 +22,7 @@ export function PhasePlane({ view, player, height }: { view: TrialView; player: 
   const [xs, ys] = useMemo(() => {
     const goals = turns(view.references.q2_nearest, trajectory.q2);
     const room = (low: number, high: number): [number, number] => [low - 0.06 * (high - low || 1), high + 0.06 * (high - low || 1)];
-    // A few violent moments must not press the rest into a line.
-    const speeds = [...trajectory.q2_dot].sort((a, b) => a - b);
-    const low = Math.min(0, speeds[Math.floor(0.004 * speeds.length)] ?? 0);
-    const high = Math.max(0, speeds[Math.ceil(0.996 * (speeds.length - 1))] ?? 0);
-    return [room(Math.min(...trajectory.q2, ...goals), Math.max(...trajectory.q2, ...goals)), room(low, high)] as const;
+    return [room(Math.min(...trajectory.q2, ...goals), Math.max(...trajectory.q2, ...goals)), room(...speedRange(trajectory.q2_dot))] as const;
   }, [view]);
   const data = useMemo<uPlot.AlignedData>(() => [xs, [null, null]], [xs]);
 

@@ -4,7 +4,7 @@ import { useEffect, useMemo, useRef } from "preact/hooks";
 import { Chart, axis, drawInside, faded, ratio } from "../chart";
 import type { TrialView } from "../documents";
 import { number } from "../numbers";
-import { phaseWords } from "../names";
+import { phaseShort, phaseWords } from "../names";
 import type { Player } from "../player";
 import type { Palette } from "../theme";
 
@@ -74,7 +74,7 @@ export function TimeSeries({ view, column, player, height, isNamed, isLast }: {
         legend: { show: false },
         cursor: { sync: { key: "trial" }, drag: { x: true, y: false }, points: { show: true, size: 7 }, y: false },
         padding: [8, 10, 0, 0],
-        scales: { x: { time: false }, y: { range: (_u, low, high) => withRoom(Math.min(low, ...levels), Math.max(high, ...levels)) } },
+        scales: { x: { time: false }, y: { range: (_u, low, high) => withRoom(Math.min(low, ...levels), Math.max(high, ...levels), isNamed ? 0.2 : 0.08) } },
         axes: [
           axis(palette, "bottom", isLast ? { label: "t [s]" } : { values: (ticks) => ticks.map(() => ""), size: 8 }),
           axis(palette, "left", { label: `${symbol} [${unit}]`, size: 50, space: 26 }),
@@ -91,9 +91,10 @@ export function TimeSeries({ view, column, player, height, isNamed, isLast }: {
   );
 }
 
-function withRoom(low: number, high: number): [number, number] {
-  const room = high > low ? 0.08 * (high - low) : Math.max(1e-3, 0.1 * Math.abs(high));
-  return [low - room, high + room];
+/** @param above  share of the range that stays free at the top, for the names of phases */
+function withRoom(low: number, high: number, above: number): [number, number] {
+  const span = high > low ? high - low : Math.max(0.01, Math.abs(high));
+  return [low - 0.08 * span, high + above * span];
 }
 
 /** The goal, and of the angle all its turns within the course. */
@@ -130,17 +131,18 @@ function shadePhases(u: uPlot, palette: Palette, { phases }: TrialView, isNamed:
   drawInside(u, (context) => {
     context.font = `${11 * ratio()}px system-ui, sans-serif`;
     context.textBaseline = "top";
+    context.textAlign = "center";
     phases.kind.forEach((kind, k) => {
       const left = Math.max(u.bbox.left, u.valToPos(phases.start[k] ?? 0, "x", true));
       const right = Math.min(u.bbox.left + u.bbox.width, u.valToPos(phases.end[k] ?? 0, "x", true));
       if (right <= left) return;
       context.fillStyle = faded(palette.phase[kind], palette.name === "dark" ? 0.2 : 0.16);
       context.fillRect(left, u.bbox.top, right - left, u.bbox.height);
-      const name = phaseWords[kind];
-      if (isNamed && context.measureText(name).width + 10 * ratio() < right - left) {
-        context.fillStyle = palette.muted;
-        context.fillText(name, left + 5 * ratio(), u.bbox.top + 4 * ratio());
-      }
+      if (!isNamed) return;
+      const name = [phaseWords[kind], ...phaseShort[kind]].find((each) => context.measureText(each).width + 4 * ratio() < right - left);
+      if (name === undefined) return;
+      context.fillStyle = palette.muted;
+      context.fillText(name, (left + right) / 2, u.bbox.top + 4 * ratio());
     });
   });
 }

@@ -1,7 +1,7 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import type { PhaseKind, TrialView } from "../documents";
 import { number } from "../numbers";
-import { phaseWords } from "../names";
+import { phaseShort, phaseWords } from "../names";
 import { type Player, speeds } from "../player";
 
 export const phaseKinds: readonly PhaseKind[] = ["align", "drift", "contraction", "swing"];
@@ -45,11 +45,11 @@ export function Timeline({ view, player }: { view: TrialView; player: Player }) 
         }} />
       </div>
       <div class="timeline-controls">
-        <button type="button" class="button icon" aria-label="Phase before" title="Phase before" onClick={() => jump(-1)}>⏮</button>
+        <button type="button" class="button icon" aria-label="Phase before" title="Phase before" onClick={() => jump(-1)}><StepIcon /></button>
         <button type="button" class="button primary play" aria-label={player.isPlaying ? "Pause" : "Play"} onClick={() => (player.isPlaying ? player.pause() : player.play())}>
           {player.isPlaying ? "Pause" : "Play"}
         </button>
-        <button type="button" class="button icon" aria-label="Next phase" title="Next phase" onClick={() => jump(1)}>⏭</button>
+        <button type="button" class="button icon" aria-label="Next phase" title="Next phase" onClick={() => jump(1)}><StepIcon isForward /></button>
         <output class="clock" ref={clock}>0.0 s</output>
         <label class="select"><span>Speed</span>
           <select value={String(player.speed)} onChange={(event) => player.setSpeed(Number(event.currentTarget.value))}>
@@ -62,11 +62,21 @@ export function Timeline({ view, player }: { view: TrialView; player: Player }) 
   );
 }
 
+/** A bar and an arrow: to the next phase, or back. */
+function StepIcon({ isForward = false }: { isForward?: boolean }) {
+  return (
+    <svg viewBox="0 0 16 16" width="14" height="14" aria-hidden="true" transform={isForward ? "scale(-1 1)" : ""}>
+      <path d="M3 2.5v11" stroke="currentColor" stroke-width="2" stroke-linecap="round" />
+      <path d="M13.5 2.8v10.4L5.8 8Z" fill="currentColor" />
+    </svg>
+  );
+}
+
 export function PhaseLegend({ view }: { view: TrialView }) {
   return (
     <p class="legend phase-legend">
       {phaseKinds.filter((kind) => view.phases.kind.includes(kind)).map((kind) => (
-        <span key={kind}><span class={`swatch phase-${kind}`} /> {phaseWords[kind]}</span>
+        <span key={kind}><span class={`swatch phase-${kind}`} aria-hidden="true">{phaseShort[kind][1]}</span> {phaseWords[kind]}</span>
       ))}
     </p>
   );

@@ -66,8 +66,8 @@ function Comparison({ view }: { view: ComparisonView }) {
         <div class="problem mild wide"><strong>Know first</strong><ul>{comparison.warnings.map((warning) => <li key={warning}>{warning}</li>)}</ul></div>
       )}
       <Card title="Success rate" note={`Of ${count(pairs.total)} pairs of trials with the same draws.`}>
-        <p class="big">{signedPercent(rate.difference.estimate)}<span class="big-note"> B less A</span></p>
-        <p class="interval">{rate.difference.ci_low === null ? "no interval over several cells together" : `${signedRange(rate.difference.ci_low, rate.difference.ci_high)} · ${number(100 * rate.difference.level)} % interval (Tango)`}</p>
+        <p class="big">{points(rate.difference.estimate)}<span class="big-note"> percentage points, B less A</span></p>
+        <p class="interval">{rate.difference.ci_low === null ? "no interval over several cells together" : `${signedRange(rate.difference.ci_low, rate.difference.ci_high).replace(" %", "")} · ${number(100 * rate.difference.level)} % interval (Tango)`}</p>
         <dl class="figures">
           <Figure name="A"><a href={studyLink(comparison.a.id)}>{percent(rate.a, 2)}</a></Figure>
           <Figure name="B"><a href={studyLink(comparison.b.id)}>{percent(rate.b, 2)}</a></Figure>
@@ -99,6 +99,7 @@ function Comparison({ view }: { view: ComparisonView }) {
 }
 
 const signedPercent = (share: number | null) => (share === null ? none : `${share > 0 ? "+" : ""}${percent(share, 2)}`);
+const points = (share: number | null) => signedPercent(share).replace(" %", "");
 const signedRange = (low: number | null, high: number | null) => percentRange(low, high).replace(/-/g, "−");
 
 function PairTable({ view }: { view: ComparisonView }) {

@@ -94,6 +94,7 @@ function Trial({ view, start }: { view: TrialView; start: number | null }) {
       </Card>
       <Card title="Outcome">
         <OutcomeFigures view={view} />
+        <Varying view={view} />
         <Links view={view} />
       </Card>
       {figures.map(({ title, columns }) => (
@@ -126,7 +127,7 @@ function Trial({ view, start }: { view: TrialView; start: number | null }) {
 function contractionNote(view: TrialView): string {
   const { eta1, eta2, start } = view.contraction;
   if (start.length === 0) return "";
-  return `Predicted (14), (15): a cycle leaves η₁ = ${number(eta1)} of the distance to go and η₂ = ${number(eta2)} of the speed. Hollow: beyond the goal, or away from it. Dashes in grey on the left: ε, whose tolerance ends the trial.`;
+  return `Predicted (14), (15): a cycle leaves η₁ = ${number(eta1)} of the distance to go and η₂ = ${number(eta2)} of the speed. Hollow: beyond the goal, or away from it. Short bars: ε, whose tolerance ends the trial.`;
 }
 
 function OutcomeFigures({ view }: { view: TrialView }) {
@@ -184,10 +185,8 @@ function save(text: string, name: string): void {
   URL.revokeObjectURL(url);
 }
 
-function Parameters({ view }: { view: TrialView }) {
-  const varying = view.parameters.filter((each) => each.varies);
-  const fixed = view.parameters.filter((each) => !each.varies);
-  const rows = (parameters: TrialView["parameters"]) => (
+function ParameterList({ parameters }: { parameters: TrialView["parameters"] }) {
+  return (
     <ul class="parameters">
       {parameters.map((each) => (
         <li key={each.input} title={meaning(each.input)}>
@@ -197,12 +196,26 @@ function Parameters({ view }: { view: TrialView }) {
       ))}
     </ul>
   );
+}
+
+function Varying({ view }: { view: TrialView }) {
+  const varying = view.parameters.filter((each) => each.varies);
+  if (varying.length === 0) return null;
+  return (
+    <div class="varying">
+      <h3>What varies in this study, here</h3>
+      <ParameterList parameters={varying} />
+    </div>
+  );
+}
+
+function Parameters({ view }: { view: TrialView }) {
+  const fixed = view.parameters.filter((each) => !each.varies);
   return (
     <Card class="wide" title="Parameters">
-      {varying.length > 0 && <><h3>Vary in this study</h3>{rows(varying)}</>}
-      <details open={varying.length === 0}>
-        <summary>The same in every trial ({fixed.length})</summary>
-        {rows(fixed)}
+      <details>
+        <summary>The same in every trial of the study ({fixed.length})</summary>
+        <ParameterList parameters={fixed} />
       </details>
     </Card>
   );

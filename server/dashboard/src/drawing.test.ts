@@ -1,0 +1,43 @@
+import { describe, expect, it } from "vitest";
+import { fromOklab, isLight, rateColours, toOklab } from "./colour";
+import { symbol } from "./names";
+import { readProblem } from "./problem";
+import { trajectoryCsv } from "./trajectory_csv";
+
+describe("rate colours", () => {
+  it("go through their three stops", () => {
+    const colour = rateColours(["#c75a00", "#eef0f2", "#0a5a9e"]);
+    expect([0, 0.5, 1].map(colour)).toEqual(["#c75a00", "#eef0f2", "#0a5a9e"]);
+    expect(colour(-1)).toBe(colour(0));
+    expect(colour(2)).toBe(colour(1));
+  });
+  it("come back from Oklab, and are light or dark", () => {
+    for (const hex of ["#000000", "#ffffff", "#0a62a9", "#cf6a0c"]) expect(fromOklab(toOklab(hex))).toBe(hex);
+    expect(isLight("#eef0f2")).toBe(true);
+    expect(isLight("#0a5a9e")).toBe(false);
+  });
+});
+
+describe("names", () => {
+  it("are the paper's where it has one", () => {
+    expect(["plant.f2", "initial_state.q2_dot", "controller.contraction.eta1", "sensor.bias.q1", "controller.swing.period"].map(symbol)).toEqual(["f₂", "q̇₂(0)", "η₁", "q₁ bias", "swing period"]);
+  });
+});
+
+describe("trajectories as CSV", () => {
+  it("have a header and every digit", () => {
+    expect(trajectoryCsv({ t: [0, 0.05], q1: [1, 0.9999999999999], phase: ["align", "drift"] })).toBe("t,q1,phase\n0,1,align\n0.05,0.9999999999999,drift\n");
+  });
+});
+
+describe("problems", () => {
+  it("carry the mistakes of a spec", async () => {
+    const response = new Response(JSON.stringify({ title: "Bad spec", detail: "2 mistakes", errors: [{ pointer: "/plant/m1", detail: "no" }, { detail: "whole" }, 7] }), { status: 422, headers: { "Retry-After": "3" } });
+    const problem = await readProblem(response);
+    expect(problem).toMatchObject({ status: 422, title: "Bad spec", retryAfter: 3, mistakes: [{ pointer: "/plant/m1", detail: "no" }, { pointer: "", detail: "whole" }] });
+    expect(problem.isLost).toBe(false);
+  });
+  it("are told by their status where they have no words", async () => {
+    expect((await readProblem(new Response("<html>", { status: 502, statusText: "Bad Gateway" }))).title).toBe("Bad Gateway");
+  });
+});
