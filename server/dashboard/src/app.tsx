@@ -82,7 +82,7 @@ function view(route: Route) {
       return <CompareView a={route.a} b={route.b} />;
     case "unknown":
       return (
-        <Empty title="There is no such view">
+        <Empty title="There is no such view" isWhole>
           <p><a href="#/">All studies</a></p>
         </Empty>
       );

@@ -42,5 +42,9 @@ export function rateColours(stops: readonly [string, string, string]): (rate: nu
   return (rate) => table[Math.round(100 * Math.min(1, Math.max(0, rate)))] ?? table[0] ?? "";
 }
 
-/** Whether dark text reads better than light text on it. */
-export const isLight = (hex: string) => toOklab(hex)[0] > 0.66;
+/** Black or white, whichever reads better on it: with a contrast of 4.5 at least, on any colour. */
+export function textOn(hex: string): "#000000" | "#ffffff" {
+  const [r, g, b] = [1, 3, 5].map((at) => toLinear(parseInt(hex.slice(at, at + 2), 16) / 255)) as Triple;
+  const luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b; // as WCAG has it
+  return luminance > 0.179 ? "#000000" : "#ffffff";
+}

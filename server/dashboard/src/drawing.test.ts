@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { fromOklab, isLight, rateColours, toOklab } from "./colour";
+import { fromOklab, rateColours, textOn, toOklab } from "./colour";
 import { symbol } from "./names";
 import { readProblem } from "./problem";
 import { trajectoryCsv } from "./trajectory_csv";
@@ -13,8 +13,8 @@ describe("rate colours", () => {
   });
   it("come back from Oklab, and are light or dark", () => {
     for (const hex of ["#000000", "#ffffff", "#0a62a9", "#cf6a0c"]) expect(fromOklab(toOklab(hex))).toBe(hex);
-    expect(isLight("#eef0f2")).toBe(true);
-    expect(isLight("#0a5a9e")).toBe(false);
+    expect(textOn("#eef0f2")).toBe("#000000");
+    expect(textOn("#0a5a9e")).toBe("#ffffff");
   });
 });
 

@@ -116,11 +116,11 @@ export function ProblemBox({ problem, children }: { problem: Problem; children?:
   );
 }
 
-export function Empty({ title, children }: { title: string; children?: ComponentChildren }) {
+export function Empty({ title, isWhole = false, children }: { title: string; isWhole?: boolean; children?: ComponentChildren }) {
   return (
     <div class="empty">
       <RobotGlyph />
-      <strong>{title}</strong>
+      {isWhole ? <h1>{title}</h1> : <strong>{title}</strong>}
       {children}
     </div>
   );

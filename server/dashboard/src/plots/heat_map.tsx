@@ -1,5 +1,5 @@
 import { useMemo, useState } from "preact/hooks";
-import { rateColours, isLight } from "../colour";
+import { rateColours, textOn } from "../colour";
 import type { StudyView } from "../documents";
 import { inputLabel, symbol, unitText } from "../names";
 import { count, number, percentOf, percentRange, quantity } from "../numbers";
@@ -78,6 +78,10 @@ export function HeatMap({ sweeps }: { sweeps: Sweeps }) {
       <div class="heat-scroll" tabIndex={0} role="group" aria-label="Heat map">
         <table class={`heat ${isSmall ? "" : "dense"}`} onMouseLeave={() => setLooked(null)}>
           <caption class="unseen">{shown === "rate" ? "Success rate" : "Median settling time"} by {symbol(x.input)}{y ? ` and ${symbol(y.input)}` : ""}</caption>
+          <colgroup>
+            {y && <col class="heat-title-column" />}
+            <col class="heat-value-column" />
+          </colgroup>
           <tbody>
             {rows.map((j, row) => (
               <tr key={j}>
@@ -89,7 +93,7 @@ export function HeatMap({ sweeps }: { sweeps: Sweeps }) {
                   const share = shown === "rate" ? rate : time === null ? null : greatest > least ? 1 - (time - least) / (greatest - least) : 0.5;
                   const fill = share === null ? null : colour(share);
                   return (
-                    <td key={i} class={looked === cell ? "looked" : ""} style={fill ? { background: fill, color: isLight(fill) ? "#14181f" : "#ffffff" } : {}}
+                    <td key={i} class={looked === cell ? "looked" : ""} style={fill ? { background: fill, color: textOn(fill) } : {}}
                       onMouseEnter={() => setLooked(cell)} onClick={() => setLooked(cell)}>
                       {isSmall ? (shown === "rate" ? percentOf(rate, low, high) : number(time, 3)) : <span class="unseen">{shown === "rate" ? percentOf(rate, low, high) : number(time, 3)}</span>}
                     </td>

@@ -33,7 +33,7 @@ export function StudyPage({ id, tab, query }: { id: string; tab: Tab; query: Rea
   }, [name]);
   if (problem?.status === 404) {
     return (
-      <Empty title="There is no such study">
+      <Empty title="There is no such study" isWhole>
         <p>{problem.detail}</p>
         <p><a class="button" href="#/">All studies</a></p>
       </Empty>

@@ -63,7 +63,7 @@ function Neighbours({ id, index }: { id: string; index: number }) {
   const before = [...failed].reverse().find((each) => each < index && source.has(each));
   const after = failed.find((each) => each > index && source.has(each));
   const link = (to: number | undefined, text: string) =>
-    to !== undefined && to >= 0 && source.has(to) ? <a class="button quiet" href={trialLink(id, to)}>{text}</a> : <span class="button quiet off" aria-hidden="true">{text}</span>;
+    to !== undefined && to >= 0 && source.has(to) ? <a class="button quiet" href={trialLink(id, to)}>{text}</a> : <button type="button" class="button quiet" disabled>{text}</button>;
   return (
     <div class="page-actions">
       {link(index - 1, "← Previous")}
