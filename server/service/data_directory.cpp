@@ -57,7 +57,7 @@ StudyRecord record_of(const StudyHome& home, const StoredStudy& stored, const Te
   }
   if (is_over(record.status)) return record;
   record.revision = next_revision(record.revision);
-  record.completed = home.trials_in_shards();
+  record.completed = std::max(record.completed, home.trials_in_shards());  // exactly, once it runs
   if (stored.engine_version == engine_version()) return record;
   record.status = StudyStatus::failed;
   record.failure = fmt::format(

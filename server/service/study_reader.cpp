@@ -73,15 +73,15 @@ void StudyReader::look_at(const StudyEntry& entry, const Look& look) {
     const std::optional<StudyEntry::Run> run = catalogue_.look(entry, [](const StudyEntry& now) { return now.run; });
     const std::shared_ptr<const KeptStudy> kept = run ? run->result : opened(entry);
     if (kept) {
-      return look({kept->result.trials.outcomes, kept->result.trials.index, false, kept.get()});
+      return look({kept->result.trials.outcomes, kept->result.trials.index, kept.get()});
     }
     const bool seen = run->live && run->live->read([&](std::span<const TrialOutcome> outcomes) {
-      look({outcomes, {}, true, nullptr});
+      look({outcomes, {}, nullptr});
     });
     if (seen) return;
     std::this_thread::sleep_for(pause);
   }
-  look({{}, {}, true, nullptr});
+  look({{}, {}, nullptr});
 }
 
 /// The finished trials as a result. Those of a run under way are copied.

@@ -35,8 +35,7 @@ class StudyReader {
   struct View {
     std::span<const TrialOutcome> outcomes;
     std::span<const std::uint64_t> index;  ///< of each; empty where it is the position
-    bool is_live;                          ///< of a run under way, else `kept` is there
-    const KeptStudy* kept;
+    const KeptStudy* kept;                 ///< what they belong to; null in a run under way
   };
   using Look = std::function<void(const View&)>;
 

@@ -148,6 +148,7 @@ class StudyService::Implementation {
     StudyRecord record;
     record.created = utc_now();
     record.revision = next_revision(0);
+    if (earlier) record.completed = std::min(catalogue_.state(*earlier).completed, demand.trials);
     const StudyHome home = data_.home_of(study_id(*study));
     home.create(*study, record, earlier ? &earlier->home : nullptr);
     auto entry = std::make_shared<StudyEntry>(study_id(*study), study, home, origin, std::move(record));
