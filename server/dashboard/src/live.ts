@@ -8,11 +8,14 @@ import type { Problem } from "./problem";
 /** Streams at a time: browsers allow six connections to a host, and requests need some. */
 const mostStreams = 3;
 
-/** Follows studies' events. Where a stream cannot be had, the caller's own looks must do. */
-export function useEvents(ids: readonly string[], onState: (state: StudyState) => void): void {
+/**
+ * Follows studies' events. Where a stream cannot be had, the caller's own looks must do; `onBreak` says that one broke,
+ * so that it looks at once.
+ */
+export function useEvents(ids: readonly string[], onState: (state: StudyState) => void, onBreak: () => void): void {
   const { source, connection } = usePage();
-  const latest = useRef(onState);
-  latest.current = onState;
+  const latest = useRef({ onState, onBreak });
+  latest.current = { onState, onBreak };
   const followed = ids.slice(0, mostStreams).join(" ");
   useEffect(() => {
     const abort = new AbortController();
@@ -23,13 +26,14 @@ export function useEvents(ids: readonly string[], onState: (state: StudyState) =
           onEvent: (event) => {
             if (event.event !== "progress" && event.event !== "done") return;
             try {
-              latest.current(JSON.parse(event.data) as StudyState);
+              latest.current.onState(JSON.parse(event.data) as StudyState);
             } catch {
               // not a state: the next look will tell
             }
           },
           onOpen: (isOpen) => {
             if (isOpen) connection.note(null);
+            else if (!connection.isLost) latest.current.onBreak();
           },
         },
         abort.signal,
@@ -93,7 +97,7 @@ export function useStudies(): Studies {
 
   useEvents(active, (state) => {
     setStudies((before) => before?.map((each) => (each.id === state.id ? { ...each, ...state } : each)) ?? null);
-  });
+  }, () => setLook((n) => n + 1));
 
   return {
     studies,
@@ -137,7 +141,7 @@ export function useStudyState(id: string): { state: StudyState | null; problem: 
     })();
     return () => abort.abort();
   }, [source, id, connection.epoch, look]);
-  useEvents(active ? [id] : [], (next) => setState((before) => ({ ...before, ...next })));
+  useEvents(active ? [id] : [], (next) => setState((before) => ({ ...before, ...next })), () => setLook((n) => n + 1));
   return { state, problem, refresh: () => setLook((n) => n + 1) };
 }
 

@@ -30,6 +30,8 @@ export interface PlaneProps {
   /** A point's place in the lists, or a bin's number. */
   onPick: (place: number) => void;
   picked?: number | null;
+  /** Of the points: those that can be opened, where not all can. */
+  canOpen?: ((index: number) => boolean) | undefined;
   height: number;
 }
 
@@ -54,12 +56,12 @@ function bounds(axis: Axis, k: number): [number, number] {
   return [k > 0 ? (here + (all[k - 1] ?? here)) / 2 : low, k < all.length - 1 ? (here + (all[k + 1] ?? here)) / 2 : high];
 }
 
-export function Plane({ x, y, points, bins, onPick, picked = null, height }: PlaneProps) {
+export function Plane({ x, y, points, bins, onPick, picked = null, canOpen, height }: PlaneProps) {
   const chart = useRef<uPlot | null>(null);
   const box = useRef<HTMLDivElement | null>(null);
   const [focus, setFocus] = useState<number | null>(null);
-  const props = useRef({ x, y, points, bins, onPick, picked, focus });
-  props.current = { x, y, points, bins, onPick, picked, focus };
+  const props = useRef({ x, y, points, bins, onPick, picked, canOpen, focus });
+  props.current = { x, y, points, bins, onPick, picked, canOpen, focus };
   const data = useMemo<uPlot.AlignedData>(() => [extent(x), [null, null]], [x]);
   const version = `${x.input} ${y.input} ${points ? "points" : "bins"} ${extent(x)} ${extent(y)}`;
 
@@ -89,7 +91,8 @@ export function Plane({ x, y, points, bins, onPick, picked = null, height }: Pla
       tip.hidden = true;
     });
     u.over.addEventListener("click", (event) => {
-      const place = at(event);
+      const area = u.over.getBoundingClientRect();
+      const place = find(u, props.current, event.clientX - area.left, event.clientY - area.top, props.current.canOpen);
       if (place !== null) props.current.onPick(place);
     });
   };
@@ -147,9 +150,9 @@ function levelTicks(axis: Axis) {
   return levels && levels.length <= 12 ? { splits: () => levels } : {};
 }
 
-type Drawn = Pick<PlaneProps, "x" | "y"> & { points?: Points | undefined; bins?: Bins | undefined; picked?: number | null; focus?: number | null };
+type Drawn = Pick<PlaneProps, "x" | "y" | "canOpen"> & { points?: Points | undefined; bins?: Bins | undefined; picked?: number | null; focus?: number | null };
 
-function draw(u: uPlot, palette: Palette, { x, y, points, bins, picked, focus }: Drawn): void {
+function draw(u: uPlot, palette: Palette, { x, y, points, bins, picked, canOpen, focus }: Drawn): void {
   drawInside(u, (context) => {
     if (bins) {
       const colour = rateColours(palette.rate);
@@ -173,11 +176,11 @@ function draw(u: uPlot, palette: Palette, { x, y, points, bins, picked, focus }:
         context.strokeRect(...rectangle(k));
       }
     }
-    if (points) drawPoints(u, context, palette, points, [picked, focus]);
+    if (points) drawPoints(u, context, palette, points, [picked, focus], canOpen);
   });
 }
 
-function drawPoints(u: uPlot, context: CanvasRenderingContext2D, palette: Palette, points: Points, marked: readonly (number | null | undefined)[]): void {
+function drawPoints(u: uPlot, context: CanvasRenderingContext2D, palette: Palette, points: Points, marked: readonly (number | null | undefined)[], canOpen: PlaneProps["canOpen"]): void {
   const many = points.x.length > 3000;
   const radius = (many ? 2 : points.x.length > 600 ? 2.8 : 4) * ratio();
   const opacity = many ? 0.7 : 0.85;
@@ -196,6 +199,17 @@ function drawPoints(u: uPlot, context: CanvasRenderingContext2D, palette: Palett
     const [px, py] = place(k);
     drawMark(context, status, px, py, radius * 1.15, faded(palette.status[status], Math.min(1, opacity + 0.1)));
   });
+  if (canOpen) {
+    context.strokeStyle = palette.ink;
+    context.lineWidth = 1.5 * ratio();
+    points.index.forEach((index, k) => {
+      if (!canOpen(index)) return;
+      const [px, py] = place(k);
+      context.beginPath();
+      context.arc(px, py, radius + 3 * ratio(), 0, 2 * Math.PI);
+      context.stroke();
+    });
+  }
   for (const k of marked) {
     if (k === null || k === undefined) continue;
     const [px, py] = place(k);
@@ -245,11 +259,12 @@ export function drawMark(context: CanvasRenderingContext2D, status: Status, x: n
 }
 
 /** What is at a place of the plot's area [CSS pixels]: the nearest point within reach, or the bin. */
-function find(u: uPlot, { x, y, points, bins }: Drawn, left: number, top: number): number | null {
+function find(u: uPlot, { x, y, points, bins }: Drawn, left: number, top: number, canOpen?: PlaneProps["canOpen"]): number | null {
   if (points) {
     let best: number | null = null;
     let least = 14 * 14;
     points.x.forEach((value, k) => {
+      if (canOpen && !canOpen(points.index[k] ?? -1)) return;
       const dx = u.valToPos(value, "x") - left;
       const dy = u.valToPos(points.y[k] ?? 0, "y") - top;
       // A failure is picked before a success that is as near.

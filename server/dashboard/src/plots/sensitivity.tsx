@@ -29,6 +29,7 @@ export function SensitivityBars({ sensitivity }: { sensitivity: Sensitivity }) {
     >
       {empty ? <p class="muted">There is nothing to explain: too few trials, or all ended alike.</p> : (
         <table class="bars">
+          <colgroup><col class="bars-name" /><col /><col class="bars-number" /></colgroup>
           <thead class="unseen"><tr><th scope="col">Input</th><th scope="col">Index</th><th scope="col">Value</th></tr></thead>
           <tbody>
             {bars.map((bar) => bar.rows.map((row, k) => (

@@ -24,14 +24,15 @@ export function TrialsTab({ view, query }: { view: StudyView; query: Readonly<Re
     .filter((row) => !source.report || source.has(row.index));
   const present = statuses.filter((status) => view.summary.outcomes[status] > 0);
   const failures = statuses.reduce((sum, status) => sum + (status === "converged" ? 0 : view.summary.outcomes[status]), 0);
+  const numbered = (text: string, n: number) => (source.report ? text : `${text} (${count(n)})`);
   return (
     <Card title="Trials" note={note(view, source.report !== null)} actions={<OpenTrial id={id} count={view.trials.requested} />}>
       <div class="controls">
         <Select label="Show" value={wanted} onChange={(status) => replaceRoute({ view: "study", id, tab: "trials", query: { status } })}
           options={[
-            { value: "all", text: `all (${count(view.trials.used)})` },
-            { value: "failed", text: `failed (${count(failures)})` },
-            ...present.map((status) => ({ value: status, text: `${statusWords[status]} (${count(view.summary.outcomes[status])})` })),
+            { value: "all", text: numbered("all", view.trials.used) },
+            { value: "failed", text: numbered("failed", failures) },
+            ...present.map((status) => ({ value: status, text: numbered(statusWords[status], view.summary.outcomes[status]) })),
           ]} />
       </div>
       {shown.length === 0 ? <Empty title="No such trial here" /> : (

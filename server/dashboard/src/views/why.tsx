@@ -56,6 +56,7 @@ function MapCard({ view, x, y, names, onChoose, shownAs }: {
   shownAs: string | undefined;
 }) {
   const id = view.summary.study.id;
+  const { source } = usePage();
   const isWhole = view.sample.index.length >= view.sample.of;
   const [shown, setShown] = useState<"points" | "bins">(shownAs === "bins" || !isWhole ? "bins" : "points");
   const [picked, setPicked] = useState<number | null>(null);
@@ -86,12 +87,12 @@ function MapCard({ view, x, y, names, onChoose, shownAs }: {
       </div>
       {shown === "points" && axes[0] && axes[1] ? (
         <>
-          <Plane x={axes[0]} y={axes[1]} points={points} onPick={pick} height={430} />
+          <Plane x={axes[0]} y={axes[1]} points={points} onPick={pick} canOpen={source.report ? (index) => source.has(index) : undefined} height={430} />
           <p class="legend">
             {statuses.filter((status) => view.summary.outcomes[status] > 0).map((status) => <StatusName key={status} status={status} />)}
           </p>
           <p class="note">
-            {isWhole ? `All ${count(view.sample.of)} trials.` : `${count(view.sample.index.length)} of ${count(view.sample.of)} trials, chosen at random.`} Click one to see what happened in it.
+            {isWhole ? `All ${count(view.sample.of)} trials.` : `${count(view.sample.index.length)} of ${count(view.sample.of)} trials, chosen at random.`} {source.report ? "Those in rings are in this report: click one to see what happened in it." : "Click one to see what happened in it."}
           </p>
         </>
       ) : isWhole && axes[0] && axes[1] ? (

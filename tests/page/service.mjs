@@ -1,0 +1,57 @@
+// The program under the page: starts it, asks it, kills it.
+import { spawn, execFileSync } from "node:child_process";
+import { once } from "node:events";
+import { createInterface } from "node:readline";
+
+const program = process.env.STEERSTAT ?? "build/ci/steerstat";
+
+export class Service {
+  #process = null;
+  url = "";
+
+  constructor(data) {
+    this.data = data;
+  }
+
+  /** Returns once it says that it serves: at a free port, after a kill at the same one. */
+  async start() {
+    const port = this.url === "" ? "0" : new URL(this.url).port;
+    this.#process = spawn(program, ["serve", "--port", port, "--data", this.data], { stdio: ["ignore", "pipe", "inherit"] });
+    for await (const line of createInterface({ input: this.#process.stdout })) {
+      const found = /http:\/\/\S+/.exec(line);
+      if (found) {
+        this.url = new URL("/", found[0]).href;
+        return;
+      }
+    }
+    throw new Error("the service ended before it served");
+  }
+
+  async kill(signal = "SIGKILL") {
+    const process = this.#process;
+    if (process === null || process.exitCode !== null || process.signalCode !== null) return;
+    process.kill(signal);
+    await once(process, "exit");
+  }
+
+  async get(path) {
+    const response = await fetch(this.url + path);
+    if (!response.ok) throw new Error(`${path}: ${response.status} ${await response.text()}`);
+    return response.json();
+  }
+
+  /** Submits a spec and waits until it is done. */
+  async run(spec) {
+    const response = await fetch(`${this.url}v1/studies`, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(spec) });
+    if (!response.ok) throw new Error(await response.text());
+    const { id } = await response.json();
+    for (;;) {
+      const { status, failure } = await this.get(`v1/studies/${id}`);
+      if (status === "succeeded") return id;
+      if (status !== "queued" && status !== "running") throw new Error(`${spec.name}: ${status} ${failure}`);
+      await new Promise((resolve) => setTimeout(resolve, 50));
+    }
+  }
+}
+
+export const runProgram = (...words) => execFileSync(program, words, { stdio: ["ignore", "pipe", "inherit"] });
