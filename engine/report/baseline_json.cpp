@@ -37,18 +37,51 @@ void read_study_keys(const Reader& root, Baseline& baseline) {
 }
 
 /// The trials are those that the outcomes count: of a sensitivity design the independent ones alone.
-void read_counts(const Reader& root, Baseline& baseline) {
-  const std::size_t mistakes = root.errors().size();
-  const auto outcomes = require_object(root, "outcomes");
-  if (!outcomes) return;
-  baseline.converged = {count_at(*outcomes, name_of(Status::converged)), 0};
+ProportionCount read_counts(const Reader& parent) {
+  const std::size_t mistakes = parent.errors().size();
+  const auto outcomes = require_object(parent, "outcomes");
+  if (!outcomes) return {};
+  ProportionCount converged{count_at(*outcomes, name_of(Status::converged)), 0};
   for (const std::string_view outcome : status_names) {
     const std::uint64_t count = count_at(*outcomes, outcome);
-    if (count > most - baseline.converged.trials) return outcomes->fail("the counts add up to too much");
-    baseline.converged.trials += count;
+    if (count > most - converged.trials) {
+      outcomes->fail("the counts add up to too much");
+      return {};
+    }
+    converged.trials += count;
   }
-  if (baseline.converged.trials > 0 || root.errors().size() != mistakes) return;
-  outcomes->fail("no trial has finished (a baseline has trials); run the study again");
+  if (converged.trials == 0 && parent.errors().size() == mistakes) {
+    outcomes->fail("no trial has finished (a baseline has trials); run the study again");
+  }
+  return converged;
+}
+
+Baseline::Cell read_cell(const Reader& reader) {
+  Baseline::Cell cell;
+  if (!reader.require_object("an object {\"sweep\", \"outcomes\", ...}")) return cell;
+  if (const auto sweep = require_object(reader, "sweep")) {
+    for (const auto& [name, value] : sweep->value().items()) {
+      if (const auto number = sweep->find(name)->number()) cell.sweep.push_back({name, *number});
+    }
+  }
+  cell.converged = read_counts(reader);
+  return cell;
+}
+
+void read_cells(const Reader& root, Baseline& baseline) {
+  const auto cells = root.find("cells");
+  if (!cells || !cells->require_array("an array")) return;
+  for (std::size_t i = 0; i < cells->value().size(); ++i) baseline.cells.push_back(read_cell(cells->element(i)));
+}
+
+/// Summaries of old do not say what their intervals count.
+void refuse_sequence(const Reader& root) {
+  const auto rate = root.find("success_rate");
+  const auto unit = rate && rate->value().is_object() ? rate->find("unit") : std::nullopt;
+  if (!unit || unit->value() != "none") return;
+  unit->fail(
+      "one scrambling of Sobol's sequence (a baseline is of trials that tell an interval); take one by "
+      "monte_carlo or latin_hypercube");
 }
 
 }  // namespace
@@ -60,15 +93,13 @@ Baseline read_baseline(std::string_view summary_json) {
   Baseline baseline;
   if (root.require_object("an object: a summary is {...}")) {
     read_study_keys(root, baseline);
-    read_counts(root, baseline);
+    baseline.converged = read_counts(root);
     const auto complete = root.require("complete");
     if (complete && complete->boolean() == false) {
       complete->fail("the study was interrupted (a baseline is complete); run it again");
     }
-    const auto cells = root.find("cells");
-    if (cells && cells->require_array("an array") && !cells->value().empty()) {
-      cells->fail("a study with sweeps (a baseline has one success rate); take one without");
-    }
+    read_cells(root, baseline);
+    refuse_sequence(root);
   }
   if (!errors.empty()) throw BadSpec(std::move(errors));
   return baseline;

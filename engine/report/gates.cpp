@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "statistics/confidence_sequence.hpp"
-#include "statistics/sample_interval.hpp"
+#include "report/independence.hpp"
 #include "study/rate.hpp"
 #include "trial/metric.hpp"
 
@@ -48,32 +47,37 @@ double value_of(const SampleStatistics& sample, Quantity quantity) {
   }
 }
 
-Evidence rate_evidence(Status outcome, Quantity quantity, const TrialStatistics& statistics,
-                       const IntervalChoice& intervals) {
+/// What a gate is judged by.
+struct Question {
+  const Gate& gate;
+  const Independence& independence;
+  bool in_cell;  ///< or over all cells
+};
+
+Evidence rate_evidence(Status outcome, const Question& question, const TrialStatistics& statistics) {
+  const Quantity quantity = question.gate.expression.quantity;
   if (quantity == Quantity::count) return {static_cast<double>(statistics.completed), {}};
-  if (statistics.completed == 0) return {};
-  const ProportionInterval rate = proportion_interval(
-      intervals.method, statistics.outcomes[static_cast<std::size_t>(outcome)], statistics.completed, intervals.level);
-  const double value = quantity == Quantity::ci_low    ? rate.low
-                       : quantity == Quantity::ci_high ? rate.high
-                                                       : rate.estimate;
-  return {value, {rate.low, rate.high}};
+  const auto rate = question.independence.rate(outcome, statistics, question.in_cell);
+  if (!rate) return {};
+  const double value = quantity == Quantity::ci_low    ? rate->low
+                       : quantity == Quantity::ci_high ? rate->high
+                                                       : rate->estimate;
+  return {value, {rate->low, rate->high}, question.independence.doubt()};
 }
 
 /// @param values  of the metric, in any order; only a quantile needs them
-Evidence sample_evidence(const std::optional<SampleStatistics>& sample, Quantity quantity, std::vector<double> values,
-                         const IntervalChoice& intervals) {
+Evidence sample_evidence(const Question& question, const TrialStatistics& statistics, std::vector<double> values) {
+  const Metric& metric = *find_metric(question.gate.metric);
+  const std::optional<SampleStatistics>& sample = statistics.of(metric.name);
+  const Quantity quantity = question.gate.expression.quantity;
   if (quantity == Quantity::count) return {sample ? static_cast<double>(sample->count) : 0.0, {}};
   if (!sample) return {};
-  Evidence evidence{value_of(*sample, quantity), {}};
+  Evidence evidence{value_of(*sample, quantity), {}, question.independence.doubt()};
   if (quantity == Quantity::mean) {
-    evidence.interval = mean_interval(sample->mean, sample->std, sample->count, intervals.level);
+    evidence.interval = question.independence.mean(metric, *sample, question.in_cell);
   } else if (const auto p = probability_of(quantity)) {
     std::sort(values.begin(), values.end());
-    // Where the study may be looked at again and again, so must a quantile's interval hold.
-    evidence.interval = intervals.method == ProportionMethod::confidence_sequence
-                            ? quantile_confidence_sequence(values, *p, intervals.level)
-                            : quantile_interval(values, *p, intervals.level);
+    evidence.interval = question.independence.quantile(metric, values, *p, question.in_cell);
   }
   return evidence;
 }
@@ -99,13 +103,12 @@ bool is_in(const std::vector<Plan::SweptValue>& cell, const std::vector<Gate::Sw
   });
 }
 
-GateVerdict verdict_on(const Gate& gate, const TrialStatistics& statistics, std::vector<double> values,
-                       const IntervalChoice& intervals, std::string_view shortfall) {
+GateVerdict verdict_on(const Question& question, const TrialStatistics& statistics, std::vector<double> values,
+                       std::string_view shortfall) {
+  const Gate& gate = question.gate;
   const auto outcome = outcome_of_rate(gate.metric);
-  const Quantity quantity = gate.expression.quantity;
-  const Evidence evidence = outcome
-                                ? rate_evidence(*outcome, quantity, statistics, intervals)
-                                : sample_evidence(statistics.of(gate.metric), quantity, std::move(values), intervals);
+  const Evidence evidence = outcome ? rate_evidence(*outcome, question, statistics)
+                                    : sample_evidence(question, statistics, std::move(values));
   auto [verdict, reason] = judge(gate.expression, evidence, shortfall);
   return {gate.metric,      expression_text(gate.expression), {}, evidence.value, evidence.interval, verdict,
           std::move(reason)};
@@ -116,18 +119,19 @@ GateVerdict verdict_on(const Gate& gate, const TrialStatistics& statistics, std:
 std::vector<GateVerdict> judge_gates(const Study& study, const Plan& plan, const TrialTable& trials,
                                      const Summary& summary) {
   const std::string shortfall = shortfall_of(summary);
+  const Independence independence(study, plan, trials);
   std::vector<GateVerdict> verdicts;
   for (const Gate& gate : study.gates) {
     const bool by_cell = (gate.each_cell || !gate.cell.empty()) && !summary.cells.empty();
     Samples samples = samples_for(gate, by_cell, plan, trials);
     if (!by_cell) {
-      verdicts.push_back(verdict_on(gate, summary.all, std::move(samples.front()), summary.intervals, shortfall));
+      verdicts.push_back(verdict_on({gate, independence, false}, summary.all, std::move(samples.front()), shortfall));
       continue;
     }
     for (std::size_t i = 0; i < summary.cells.size(); ++i) {
       const Summary::Cell& cell = summary.cells[i];
       if (!is_in(cell.sweep, gate.cell)) continue;
-      verdicts.push_back(verdict_on(gate, cell.statistics, std::move(samples[i]), summary.intervals, shortfall));
+      verdicts.push_back(verdict_on({gate, independence, true}, cell.statistics, std::move(samples[i]), shortfall));
       verdicts.back().cell = cell.sweep;
     }
   }

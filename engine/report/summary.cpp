@@ -5,6 +5,7 @@
 
 #include "core/version.hpp"
 #include "report/gates.hpp"
+#include "report/independence.hpp"
 #include "report/readable.hpp"
 #include "study/plan.hpp"
 #include "study/spec_json.hpp"
@@ -25,20 +26,19 @@ struct Tally {
     }
   }
 
-  [[nodiscard]] TrialStatistics statistics(const IntervalChoice& intervals) const {
+  [[nodiscard]] TrialStatistics statistics(const Independence& independence, bool in_cell) const {
     TrialStatistics result;
     result.outcomes = outcomes;
     for (const std::uint64_t count : outcomes) result.completed += count;
-    const std::uint64_t converged = outcomes[static_cast<std::size_t>(Status::converged)];
-    if (result.completed > 0) {
-      result.success_rate = proportion_interval(intervals.method, converged, result.completed, intervals.level);
-    }
+    result.unit = independence.unit(in_cell);
+    result.success_rate = independence.rate(Status::converged, result, in_cell);
+    result.effective_trials = independence.effective_trials(result, in_cell);
     for (std::size_t i = 0; i < metric_count; ++i) result.metrics[i] = describe(samples[i]);
     return result;
   }
 };
 
-std::vector<Summary::Cell> summarise_cells(const Plan& plan, const IntervalChoice& intervals,
+std::vector<Summary::Cell> summarise_cells(const Plan& plan, const Independence& independence,
                                            const TrialTable& trials) {
   if (plan.sweep_values(0).empty()) return {};
   std::vector<Tally> tallies(plan.cells());
@@ -48,7 +48,7 @@ std::vector<Summary::Cell> summarise_cells(const Plan& plan, const IntervalChoic
   std::vector<Summary::Cell> cells;
   cells.reserve(tallies.size());
   for (std::uint64_t cell = 0; cell < plan.cells(); ++cell) {
-    cells.push_back({plan.sweep_values(cell), tallies[cell].statistics(intervals)});
+    cells.push_back({plan.sweep_values(cell), tallies[cell].statistics(independence, true)});
   }
   return cells;
 }
@@ -103,8 +103,9 @@ Summary summarise(const Study& study, const StudyResult& result) {
   summary.requested = plan.trials();
   summary.completed = result.trials.index.size();
   summary.intervals = study.intervals;
-  summary.all = all.statistics(study.intervals);
-  summary.cells = summarise_cells(plan, study.intervals, result.trials);
+  const Independence independence(study, plan, result.trials);
+  summary.all = all.statistics(independence, false);
+  summary.cells = summarise_cells(plan, independence, result.trials);
   summary.sensitivity = sobol_sensitivity(study, plan, result.trials);
   if (const auto report = watched(study, result.trials)) summary.stop = {*study.stop, *report};
   summary.gates = judge_gates(study, plan, result.trials, summary);

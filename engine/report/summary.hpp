@@ -20,11 +20,18 @@
 
 namespace steerstat {
 
+/// What an interval counts as independent: trials, draws with their trials in all cells, or nothing, where it bears no
+/// level (see Independence).
+enum class IntervalUnit : std::uint8_t { trial, draw, none };
+inline constexpr std::array<std::string_view, 3> interval_unit_names{"trial", "draw", "none"};
+
 /// What a set of trials says; statistics without data are empty. Of a study of Sobol' indices only the trials A and B
 /// of each row count, which are independent: the others repeat their values, and intervals would be too narrow.
 struct TrialStatistics {
   std::uint64_t completed{0};  ///< trials that the statistics are of
   std::optional<ProportionInterval> success_rate;
+  IntervalUnit unit{IntervalUnit::trial};  ///< of the intervals
+  double effective_trials{0.0};            ///< independent trials that tell as much of the success rate
   std::array<std::uint64_t, status_names.size()> outcomes{};            ///< by Status
   std::array<std::optional<SampleStatistics>, metric_count> metrics{};  ///< in the order of metrics()
 
@@ -50,10 +57,17 @@ struct AuditStatistics {
 struct BaselineComparison {
   std::string id, name, engine_version;  ///< of the baseline
   std::uint64_t seed{0};
-  ProportionCount converged{};
+  ProportionCount converged{};  ///< of all cells
   BaselineTest test{};
-  std::optional<ProportionDrop> drop;     ///< from the baseline to here; nothing without trials
+  std::optional<ProportionDrop> drop;  ///< from the baseline to here; nothing without trials, nor where there are cells
   std::optional<double> detectable_drop;  ///< the least that this many trials show with the test's power
+  struct Cell {
+    std::vector<Plan::SweptValue> sweep;
+    ProportionCount converged{};
+    std::optional<ProportionDrop> drop;  ///< its lower limit at the test's level over the number of cells
+    std::optional<double> detectable_drop;
+  };
+  std::vector<Cell> cells;  ///< in the order of the summary's
 };
 
 /// A study's statistics: INTERFACE's summary object.

@@ -13,11 +13,15 @@ Json number_or_null(std::optional<double> value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-Json success_rate_json(const std::optional<ProportionInterval>& rate, const IntervalChoice& intervals) {
+Json success_rate_json(const TrialStatistics& statistics, const IntervalChoice& intervals) {
+  const std::optional<ProportionInterval>& rate = statistics.success_rate;
   Json json = {{"estimate", nullptr}, {"ci_low", nullptr}, {"ci_high", nullptr}};
   if (rate) json = {{"estimate", rate->estimate}, {"ci_low", rate->low}, {"ci_high", rate->high}};
   json["level"] = intervals.level;
   json["method"] = proportion_method_names[static_cast<std::size_t>(intervals.method)];
+  json["unit"] = interval_unit_names[static_cast<std::size_t>(statistics.unit)];
+  json["effective_trials"] =
+      rate && statistics.unit != IntervalUnit::none ? Json(statistics.effective_trials) : Json(nullptr);
   return json;
 }
 
@@ -39,7 +43,7 @@ Json sample_json(const std::optional<SampleStatistics>& sample) {
 void append_statistics(Json& json, std::uint64_t requested, std::uint64_t completed, const IntervalChoice& intervals,
                        const TrialStatistics& statistics) {
   json["trials"] = {{"requested", requested}, {"completed", completed}};
-  json["success_rate"] = success_rate_json(statistics.success_rate, intervals);
+  json["success_rate"] = success_rate_json(statistics, intervals);
   json["outcomes"] = outcomes_json(statistics);
   for (std::size_t i = 0; i < metric_count; ++i) {
     json[std::string(metrics()[i].name)] = sample_json(statistics.metrics[i]);
@@ -106,6 +110,11 @@ Json gates_json(const std::vector<GateVerdict>& gates) {
   return array;
 }
 
+Json drop_json(const std::optional<ProportionDrop>& drop) {
+  if (!drop) return nullptr;
+  return {{"estimate", drop->estimate}, {"low", drop->low}, {"high", drop->high}};
+}
+
 Json baseline_json(const std::optional<BaselineComparison>& baseline) {
   if (!baseline) return nullptr;
   Json json = {{"id", baseline->id},
@@ -117,10 +126,15 @@ Json baseline_json(const std::optional<BaselineComparison>& baseline) {
                {"level", baseline->test.level},
                {"power", baseline->test.power},
                {"margin", baseline->test.margin},
-               {"drop", nullptr},
-               {"detectable_drop", number_or_null(baseline->detectable_drop)}};
-  if (const auto& drop = baseline->drop) {
-    json["drop"] = {{"estimate", drop->estimate}, {"low", drop->low}, {"high", drop->high}};
+               {"drop", drop_json(baseline->drop)},
+               {"detectable_drop", number_or_null(baseline->detectable_drop)},
+               {"cells", Json::array()}};
+  for (const BaselineComparison::Cell& cell : baseline->cells) {
+    json["cells"].push_back({{"sweep", sweep_json(cell.sweep)},
+                             {"trials", cell.converged.trials},
+                             {"converged", cell.converged.successes},
+                             {"drop", drop_json(cell.drop)},
+                             {"detectable_drop", number_or_null(cell.detectable_drop)}});
   }
   return json;
 }

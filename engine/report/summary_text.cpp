@@ -84,6 +84,18 @@ std::string interval_text(const ProportionInterval& rate, std::uint64_t trials) 
   return fmt::format("{} to {}", low.substr(0, low.size() - 2), readable_share(rate.high, trials));
 }
 
+/// What is to be said of an interval that does not count every trial for one.
+const char* unit_note(IntervalUnit unit) {
+  switch (unit) {
+    case IntervalUnit::trial:
+      return "";
+    case IntervalUnit::draw:
+      return ", of draws, which cells share";
+    default:
+      return ", as if trials were independent: one scrambling of Sobol's sequence tells none";
+  }
+}
+
 const char* method_name(ProportionMethod method) {
   switch (method) {
     case ProportionMethod::wilson:
@@ -98,9 +110,9 @@ const char* method_name(ProportionMethod method) {
 std::string success_text(const TrialStatistics& all, ProportionMethod method, bool colour) {
   if (!all.success_rate) return "  No trial has finished.\n";
   const ProportionInterval& rate = *all.success_rate;
-  return fmt::format("  {}  {}   {} % interval {} ({})\n  {}\n", styled("Success rate", bold, colour),
+  return fmt::format("  {}  {}   {} % interval {} ({}{})\n  {}\n", styled("Success rate", bold, colour),
                      styled(readable_share(rate.estimate, all.completed), bold, colour), 100.0 * rate.level,
-                     interval_text(rate, all.completed), method_name(method),
+                     interval_text(rate, all.completed), method_name(method), unit_note(all.unit),
                      styled(interval_bar(rate.low, rate.high, bar_width), style_of(Status::converged), colour));
 }
 

@@ -74,6 +74,9 @@ Judgement judge(const GateExpression& expression, const Evidence& evidence, std:
   if (!evidence.value) {
     return {Verdict::inconclusive, shortfall.empty() ? "no data" : fmt::format("no data; {}", shortfall)};
   }
+  if (!evidence.doubt.empty() && basis_of(expression) != Basis::number) {
+    return {Verdict::inconclusive, std::string(evidence.doubt)};
+  }
   Judgement judgement = basis_of(expression) == Basis::interval ? judge_interval(expression, evidence.interval)
                                                                 : judge_number(expression, *evidence.value);
   if (shortfall.empty() || judgement.verdict == Verdict::inconclusive) return judgement;

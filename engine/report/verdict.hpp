@@ -24,6 +24,7 @@ constexpr std::string_view name_of(Verdict verdict) {
 struct Evidence {
   std::optional<double> value;  ///< empty without data
   SampleInterval interval;      ///< of the estimate behind it; a bound is empty where there is none (min, max, count)
+  std::string_view doubt{};     ///< why the interval bears no level; empty: it bears its own
 };
 
 struct Judgement {
@@ -36,7 +37,7 @@ struct Judgement {
 /// - estimate, mean, quantiles: by the interval. Pass when all of it satisfies the comparison, fail when none of it
 ///   does, else inconclusive. `ci_low >` and `>=`, `ci_high <` and `<=` are the same demands in other words.
 /// - The other comparisons of ci_low and ci_high, and those of min, max and count, look at that number alone.
-/// - Without data: inconclusive; a count has data always.
+/// - Without data: inconclusive; a count has data always. So is whatever rests on an interval that bears no level.
 /// - What would pass is inconclusive where trials are missing. What fails stays failed: an interval of fewer trials is
 ///   wider, but bears the same level, and which trials are missing does not depend on how they would have ended. Only
 ///   what more trials are bound to be able to mend (a minimum too large, a maximum or a count too small) is

@@ -38,4 +38,12 @@ inline constexpr std::array<std::string_view, 3> proportion_method_names{"wilson
 ProportionInterval proportion_interval(ProportionMethod method, std::uint64_t successes, std::uint64_t trials,
                                        double level);
 
+/// Wilson's or Clopper and Pearson's interval where the number of trials is an effective one, not whole, and with it
+/// that of successes [Korn and Graubard 1998].
+///
+/// @param share   of successes, in [0, 1]: the estimate
+/// @param trials  > 0
+/// @throws std::invalid_argument outside those ranges, and for the method confidence_sequence
+ProportionInterval proportion_interval_of_share(ProportionMethod method, double share, double trials, double level);
+
 }  // namespace steerstat

@@ -74,7 +74,16 @@ TEST(Baseline, IsRefusedWithEverythingThatIsAmiss) {
   Json text = good;
   text["outcomes"]["timeout"] = "100";
   EXPECT_THAT(mistakes_in(testing::text_of(text)), HasSubstr("/outcomes/timeout: \"100\" is not an integer"));
-  EXPECT_THAT(mistakes_in(summary_json(made_up_sweep(3))), HasSubstr("/cells: a study with sweeps"));
+  Json sequence = good;
+  sequence["success_rate"]["unit"] = "none";
+  EXPECT_THAT(mistakes_in(testing::text_of(sequence)),
+              HasSubstr("/success_rate/unit: one scrambling of Sobol's sequence"));
+  Json swept = testing::ordered_json_of(summary_json(made_up_sweep(3)));
+  ASSERT_EQ(mistakes_in(testing::text_of(swept)), "");
+  swept["cells"][1]["sweep"]["controller.contraction.eta1"] = "low";
+  for (Json& count : swept["cells"][2]["outcomes"]) count = 0;
+  EXPECT_THAT(mistakes_in(testing::text_of(swept)), HasSubstr("/cells/1/sweep/controller.contraction.eta1: \"low\""));
+  EXPECT_THAT(mistakes_in(testing::text_of(swept)), HasSubstr("/cells/2/outcomes: no trial has finished"));
 }
 
 TEST(Baseline, MustBeOfThePopulationThatTheStudyIsOf) {
@@ -84,9 +93,90 @@ TEST(Baseline, MustBeOfThePopulationThatTheStudyIsOf) {
   EXPECT_NO_THROW(require_same_population(study, baseline));
   baseline.population_sha256 = population_sha256(decode_study(R"({"goal": {"q2": 0.5}})", {}));
   EXPECT_THROW(require_same_population(study, baseline), BadUsage);
-  const Study swept = decode_study(R"({"controller": {"alignment": {"kd": {"sweep": [1, 2]}}}})", {});
-  baseline.population_sha256 = population_sha256(swept);
-  EXPECT_THROW(require_same_population(swept, baseline), BadUsage);
+}
+
+std::string refusal(const char* controller, const Baseline& baseline) {
+  try {
+    require_same_population(decode_study(std::string(R"({"controller": )") + controller + "}", {}), baseline);
+  } catch (const BadUsage& bad) {
+    return bad.what();
+  }
+  return "";
+}
+
+TEST(Baseline, OfAStudyWithSweepsMustHaveItsCells) {
+  Baseline baseline = baseline_of(7, 20);
+  const char* const swept = R"({"alignment": {"kd": {"sweep": [1, 2]}, "kp": {"sweep": [3]}}})";
+  baseline.population_sha256 = population_sha256(decode_study(std::string(R"({"controller": )") + swept + "}", {}));
+  EXPECT_THAT(refusal(swept, baseline), HasSubstr("this study has sweeps, and the baseline has not"));
+  baseline.cells = {{{{"controller.alignment.kd", 2.0}, {"controller.alignment.kp", 3.0}}, {3, 10}},
+                    {{{"controller.alignment.kp", 3.0}, {"controller.alignment.kd", 1.0}}, {4, 10}}};
+  EXPECT_EQ(refusal(swept, baseline), "") << "in whatever order cells and names are";
+  EXPECT_THAT(refusal("{}", baseline), HasSubstr("the baseline has sweeps, and this study has not"));
+  EXPECT_THAT(refusal(R"({"alignment": {"kd": {"sweep": [1, 2.5]}, "kp": {"sweep": [3]}}})", baseline),
+              HasSubstr("has no cell controller.alignment.kp = 3, controller.alignment.kd = 2.5"));
+  EXPECT_THAT(refusal(R"({"alignment": {"kd": {"sweep": [1]}, "kp": {"sweep": [3]}}})", baseline),
+              HasSubstr("has 2 cells, and this study 1"));
+}
+
+/// A sweep of eta1 over 0.001, 0.002, ... in which so many of the trials of each cell converged.
+Summary sweep_of(const std::vector<std::uint64_t>& converged, std::uint64_t trials) {
+  Summary summary = made_up_summary({0, 0, 0, 0, 0});
+  for (std::size_t i = 0; i < converged.size(); ++i) {
+    summary.cells.push_back({{{"controller.contraction.eta1", 0.001 * static_cast<double>(i + 1)}},
+                             made_up_statistics({converged[i], trials - converged[i], 0, 0, 0})});
+    summary.all.completed += trials;
+    summary.all.outcomes[0] += converged[i];
+    summary.all.outcomes[1] += trials - converged[i];
+  }
+  summary.requested = summary.completed = summary.all.completed;
+  return summary;
+}
+
+TEST(JudgeAgainst, WithSweepsHoldsEachCellAgainstItsOwn) {
+  const Baseline baseline = read_baseline(summary_json(sweep_of({9000, 5000, 10000}, 10000)));
+  ASSERT_EQ(baseline.cells.size(), 3U);
+  Summary summary = sweep_of({9000, 4700, 10000}, 10000);
+  judge_against(baseline, {}, summary);
+  ASSERT_EQ(summary.gates.size(), 3U);
+  EXPECT_EQ(summary.gates[0].verdict, Verdict::pass);
+  EXPECT_EQ(summary.gates[1].verdict, Verdict::fail);
+  EXPECT_THAT(summary.gates[1].reason, HasSubstr("at level 0.05 over 3 cells"));
+  EXPECT_EQ(summary.gates[1].cell.front().value, 0.002);
+  EXPECT_EQ(summary.gates[2].verdict, Verdict::pass);
+  const Json json = testing::ordered_json_of(summary_json(summary)).at("baseline");
+  EXPECT_TRUE(json.at("drop").is_null());
+  EXPECT_EQ(json.at("trials"), 30000);
+  EXPECT_EQ(json.at("cells").size(), 3U);
+  EXPECT_EQ(json.at("cells")[1].at("drop").at("estimate").get<double>(), *summary.gates[1].value);
+  EXPECT_EQ(json.at("cells")[1].at("converged"), 5000);
+}
+
+TEST(JudgeAgainst, WithSweepsFindsADropAtTheLevelOverTheNumberOfCells) {
+  // A drop that is significant at 0.05 and not at 0.05 / 20: among twenty cells it is nothing remarkable.
+  const ProportionCount before{5000, 10000};
+  const ProportionCount now{4870, 10000};
+  ASSERT_GT(proportion_drop(before, now, 0.05).low, 0.0);
+  ASSERT_LT(proportion_drop(before, now, 0.05 / 20).low, 0.0);
+  EXPECT_EQ(held(before, now).verdict, Verdict::fail);
+  std::vector<std::uint64_t> cells(20, 5000);
+  const Baseline baseline = read_baseline(summary_json(sweep_of(cells, 10000)));
+  cells[7] = now.successes;
+  Summary summary = sweep_of(cells, 10000);
+  BaselineTest test;
+  test.margin = 0.03;
+  judge_against(baseline, test, summary);
+  EXPECT_EQ(worst_verdict(summary.gates), Verdict::pass);
+  EXPECT_EQ(summary.baseline->cells[7].drop->low, proportion_drop(before, now, 0.05 / 20).low);
+  EXPECT_EQ(summary.baseline->cells[7].drop->high, proportion_drop(before, now, 0.05).high) << "a pass takes all cells";
+}
+
+TEST(JudgeAgainst, OfOneScramblingOfSobolsSequenceIsInconclusive) {
+  Summary summary = made_up_summary({5000, 5000, 0, 0, 0});
+  summary.all.unit = IntervalUnit::none;
+  judge_against(baseline_of(9000, 10000), {}, summary);
+  EXPECT_EQ(summary.gates.back().verdict, Verdict::inconclusive);
+  EXPECT_THAT(summary.gates.back().reason, HasSubstr("one scrambling of Sobol's sequence tells no limits"));
 }
 
 TEST(JudgeAgainst, FailsOnASignificantDropAlone) {

@@ -3,8 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "json_text.hpp"
 #include "statistics/confidence_sequence.hpp"
+#include "statistics/sample_interval.hpp"
 #include "study/spec_json.hpp"
 
 namespace steerstat {
@@ -47,6 +50,96 @@ Verdict verdict(const char* metric, const char* expr, const std::vector<TrialOut
   const Summary summary = summary_of(gate, outcomes, std::max<std::size_t>(outcomes.size(), 1));
   EXPECT_EQ(summary.gates.size(), 1U);
   return summary.gates.front().verdict;
+}
+
+/// The summary of a study by `sampling` with a gate on the success rate, of whose trials so many converged.
+Summary sampled(const std::string& sampling, std::size_t successes, std::size_t trials) {
+  const Study study = decode_study(R"({"plant": {"m1": {"uniform": [0.8, 1.2]}}, "sampling": )" + sampling +
+                                       R"(, "gates": [{"metric": "success_rate", "expr": "ci_low > 0.1"},
+                                                      {"metric": "settling_time", "expr": "p50 > 0"},
+                                                      {"metric": "settling_time", "expr": "mean > 0"},
+                                                      {"metric": "settling_time", "expr": "max > 0"},
+                                                      {"metric": "timeout_rate", "expr": "ci_low <= 0.9"}]})",
+                                   {});
+  StudyResult result;
+  result.trials.outcomes = converged(successes, trials);
+  for (std::size_t i = 0; i < trials; ++i) result.trials.index.push_back(i);
+  result.complete = true;
+  return summarise(study, result);
+}
+
+TEST(JudgeGates, OnOneScramblingOfSobolsSequenceAreInconclusive) {
+  const Summary summary = sampled(R"({"method": "sobol", "trials": 64})", 60, 64);
+  ASSERT_EQ(summary.gates.size(), 5U);
+  for (const std::size_t gate : {0U, 1U, 2U, 4U}) {
+    EXPECT_EQ(summary.gates[gate].verdict, Verdict::inconclusive) << summary.gates[gate].metric;
+    EXPECT_THAT(summary.gates[gate].reason, HasSubstr("one scrambling tells no interval"));
+  }
+  EXPECT_EQ(summary.gates[3].verdict, Verdict::pass) << "a maximum rests on no interval";
+  EXPECT_EQ(summary.all.unit, IntervalUnit::none);
+  const auto json = testing::ordered_json_of(summary_json(summary)).at("success_rate");
+  EXPECT_EQ(json.at("unit"), "none");
+  EXPECT_TRUE(json.at("effective_trials").is_null());
+  EXPECT_THAT(summary_text(summary, false), HasSubstr("as if trials were independent"));
+}
+
+TEST(JudgeGates, OfALatinHypercubeCountOneTrialLess) {
+  const Summary summary = sampled(R"({"method": "latin_hypercube", "trials": 100})", 60, 100);
+  const ProportionInterval expected = proportion_interval_of_share(ProportionMethod::wilson, 0.6, 99.0, 0.95);
+  EXPECT_DOUBLE_EQ(summary.all.success_rate->low, expected.low);
+  EXPECT_DOUBLE_EQ(summary.all.success_rate->high, expected.high);
+  EXPECT_EQ(summary.all.success_rate->estimate, 0.6);
+  EXPECT_LT(expected.low, wilson_interval(60, 100, 0.95).low);
+  EXPECT_DOUBLE_EQ(summary.all.effective_trials, 99.0);
+  EXPECT_EQ(summary.all.unit, IntervalUnit::trial);
+  EXPECT_EQ(summary.gates[0].interval.low, expected.low);
+  const Summary independent = sampled(R"({"trials": 100})", 60, 100);
+  EXPECT_EQ(independent.all.success_rate->low, wilson_interval(60, 100, 0.95).low);
+  EXPECT_GT(*independent.gates[2].interval.low, *summary.gates[2].interval.low);
+}
+
+TEST(JudgeGates, OverAllCellsCountTheDrawsThatTheyShare) {
+  // 45 of 50 draws converge, each in both cells or in none.
+  std::vector<TrialOutcome> outcomes;
+  for (std::size_t draw = 0; draw < 50; ++draw) {
+    for (int cell = 0; cell < 2; ++cell) {
+      outcomes.push_back(trial(draw < 45 ? std::optional(10.0 + static_cast<double>(draw)) : std::nullopt));
+    }
+  }
+  const char* const gates = R"({"metric": "success_rate", "expr": "ci_low >= 0.8"},
+                               {"metric": "success_rate", "expr": "ci_low >= 0.7"},
+                               {"metric": "settling_time", "expr": "mean < 40"},
+                               {"metric": "settling_time", "expr": "p50 < 40"},
+                               {"metric": "success_rate", "expr": "ci_low >= 0.7", "scope": "each_cell"})";
+  const Summary summary = summary_of(gates, outcomes, 50, R"({"contraction": {"eta1": {"sweep": [0.4, 0.5]}}})");
+  EXPECT_EQ(summary.all.unit, IntervalUnit::draw);
+  EXPECT_NEAR(summary.all.effective_trials, 49.0, 1.5);
+  const ProportionInterval of_draws = wilson_interval(45, 50, 0.95);
+  EXPECT_NEAR(summary.all.success_rate->low, of_draws.low, 5e-3);
+  EXPECT_LT(summary.all.success_rate->low, of_draws.low);
+  EXPECT_NEAR(summary.all.success_rate->high, of_draws.high, 5e-3);
+  EXPECT_GT(wilson_interval(90, 100, 0.95).low, 0.8) << "what 100 independent trials would pass";
+  EXPECT_EQ(summary.gates[0].verdict, Verdict::inconclusive);
+  EXPECT_EQ(summary.gates[1].verdict, Verdict::pass);
+  EXPECT_EQ(summary.cells.front().statistics.unit, IntervalUnit::trial);
+  EXPECT_EQ(summary.cells.front().statistics.success_rate->low, of_draws.low);
+  EXPECT_EQ(summary.gates[4].interval.low, of_draws.low);
+  // Means and quantiles of the draws: each value is there twice.
+  const SampleStatistics& times = *summary.all.of("settling_time");
+  const double independent = *mean_interval(times.mean, times.std, times.count, 0.95).high - times.mean;
+  EXPECT_NEAR((*summary.gates[2].interval.high - times.mean) / independent, std::sqrt(2.0), 0.05);
+  std::vector<double> once;
+  for (int i = 0; i < 45; ++i) once.push_back(10.0 + i);
+  const SampleInterval median = quantile_interval(once, 0.5, 0.95);
+  EXPECT_NEAR(*summary.gates[3].interval.low, *median.low, 1.0);
+  EXPECT_NEAR(*summary.gates[3].interval.high, *median.high, 1.0);
+}
+
+TEST(JudgeGates, OfAGridAndOfSweepsAloneCountTrials) {
+  const Summary swept = summary_of(R"({"metric": "success_rate", "expr": "estimate > 0"})", {trial(10.0), trial(20.0)},
+                                   1, R"({"contraction": {"eta1": {"sweep": [0.4, 0.5]}}})");
+  EXPECT_EQ(swept.all.unit, IntervalUnit::trial) << "nothing is drawn";
+  EXPECT_EQ(swept.all.success_rate->low, wilson_interval(2, 2, 0.95).low);
 }
 
 TEST(JudgeGates, OfNoTrialAreInconclusiveButForCounts) {

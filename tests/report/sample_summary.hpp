@@ -17,6 +17,7 @@ inline TrialStatistics made_up_statistics(std::array<std::uint64_t, status_names
   if (statistics.completed > 0) {
     statistics.success_rate = wilson_interval(outcomes[0], statistics.completed, 0.95);
   }
+  statistics.effective_trials = static_cast<double>(statistics.completed);
   std::vector<double> times;
   std::vector<double> cycles;
   for (std::uint64_t i = 1; i <= outcomes[0]; ++i) {

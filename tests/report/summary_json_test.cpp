@@ -40,7 +40,7 @@ TEST(SummaryJson, HasTheInterfacesKeysInItsOrder) {
             (std::vector<std::string>{"id", "name", "spec_sha256", "population_sha256", "engine_version", "seed"}));
   EXPECT_EQ(keys_of(json["trials"]), (std::vector<std::string>{"requested", "completed"}));
   EXPECT_EQ(keys_of(json["success_rate"]),
-            (std::vector<std::string>{"estimate", "ci_low", "ci_high", "level", "method"}));
+            (std::vector<std::string>{"estimate", "ci_low", "ci_high", "level", "method", "unit", "effective_trials"}));
   EXPECT_EQ(keys_of(json["outcomes"]),
             (std::vector<std::string>{"converged", "timeout", "singular", "diverged", "integrator_failed"}));
   for (const Metric& metric : metrics()) EXPECT_EQ(keys_of(json[std::string(metric.name)]), sample_keys) << metric.name;
