@@ -12,10 +12,10 @@
 #include "core/errors.hpp"
 #include "core/version.hpp"
 #include "output.hpp"
+#include "report/trajectory_json.hpp"
 #include "store/result_file.hpp"
 #include "study/plan.hpp"
 #include "table_text.hpp"
-#include "trajectory_json.hpp"
 
 namespace steerstat {
 namespace {

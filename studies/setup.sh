@@ -3,8 +3,8 @@
 # source directory.
 
 # What the program is built from.
-program_packages=(cmake g++ libboost-dev libcli11-dev libeigen3-dev libfmt-dev libhdf5-dev librandom123-dev libssl-dev
-  libsundials-dev libtbb-dev ninja-build nlohmann-json3-dev)
+program_packages=(cmake g++ libboost-dev libcli11-dev libcpp-httplib-dev libeigen3-dev libfmt-dev libhdf5-dev
+  librandom123-dev libssl-dev libsundials-dev libtbb-dev ninja-build nlohmann-json3-dev pkg-config python3 python3-yaml)
 
 logs=build/logs  # of everything that is not shown
 runner=()        # what builds and tests are run under

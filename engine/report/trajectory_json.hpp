@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,9 @@
 #include "trial/replay.hpp"
 
 namespace steerstat {
+
+/// How a trial ended, under the names a result file uses.
+nlohmann::ordered_json outcome_json(const TrialOutcome& outcome);
 
 /// A replayed trial as JSON: whose trial it is, what varied, how it ended, and its trajectory as columns under the
 /// names a result file uses. Numbers read back to the same bits; those that are not finite are null.

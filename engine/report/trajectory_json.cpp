@@ -1,12 +1,9 @@
-#include "trajectory_json.hpp"
-
-#include <nlohmann/json.hpp>
+#include "report/trajectory_json.hpp"
 
 #include "study/spec_json.hpp"
 #include "trial/metric.hpp"
 
 namespace steerstat {
-namespace {
 
 using Json = nlohmann::ordered_json;
 
@@ -28,6 +25,8 @@ Json outcome_json(const TrialOutcome& outcome) {
   }
   return json;
 }
+
+namespace {
 
 Json samples_json(const std::vector<TrajectorySample>& samples) {
   Json t = Json::array(), q1 = Json::array(), q2 = Json::array(), q1_dot = Json::array(), q2_dot = Json::array(),

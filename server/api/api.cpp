@@ -1,0 +1,120 @@
+#include "api/api.hpp"
+
+#include <fmt/format.h>
+#include <httplib.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "api/reply.hpp"
+#include "api/routes.hpp"
+#include "report/pairing.hpp"
+
+namespace steerstat {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+std::string counted(std::size_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+/// Answers, with what the service throws as the problem that it is to a client.
+void call(const Router::Route& route, const Call& request, httplib::Response& response) {
+  try {
+    route.handler(request, response);
+  } catch (const BadSpec& bad) {
+    throw Refused({422, counted(bad.errors().size(), "mistake") + " in the document", bad.errors(), {}});
+  } catch (const LimitExceeded& excess) {
+    throw Refused({422, "the study is more than the service takes", excess.errors(), {}});
+  } catch (const QueueFull& full) {
+    throw Refused({503, full.what(), {}, {{"Retry-After", std::to_string(full.retry_after())}}});
+  } catch (const NoSuchStudy& missing) {
+    throw Refused({404, missing.what(), {}, {}});
+  } catch (const NoSuchTrial& missing) {
+    throw Refused({404, missing.what(), {}, {}});
+  } catch (const StudiesDoNotPair& strangers) {
+    std::vector<SpecError> errors;
+    for (const std::string& reason : strangers.reasons()) errors.push_back({"", reason});
+    throw Refused({422, "the studies cannot be compared trial by trial", std::move(errors), {}});
+  } catch (const BadUsage& bad) {
+    throw Refused({400, bad.what(), {}, {}});
+  } catch (const RunFailure& failure) {
+    throw Refused({500, failure.what(), {}, {}});
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<void> take_place(Share& share, const std::string& kind) {
+  std::shared_ptr<void> place = share.take();
+  if (!place)
+    throw Refused({503, "as many " + kind + " as may are under way; try again later", {}, {{"Retry-After", "5"}}});
+  return place;
+}
+
+const std::string& id_of(const Call& call) {
+  const std::string& id = call.values.front();
+  const auto fits = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); };
+  if (id.empty() || id.size() > 32 || !std::all_of(id.begin(), id.end(), fits)) {
+    throw Refused({404, "there is no such study (ids are of 1 to 32 small letters and digits)", {}, {}});
+  }
+  return id;
+}
+
+StudyState state_of(const StudyService& service, const std::string& id) {
+  std::optional<StudyState> state = service.state(id);
+  if (!state) throw NoSuchStudy(id);
+  return std::move(*state);
+}
+
+class Api::Implementation {
+ public:
+  Implementation(StudyService& service, ApiOptions options) : surroundings_{service, std::move(options)} {
+    add_study_routes(router_, surroundings_);
+    add_trial_routes(router_, surroundings_);
+    add_result_route(router_, surroundings_);
+    add_event_route(router_, surroundings_);
+    add_comparison_route(router_, surroundings_);
+    add_model_routes(router_, surroundings_);
+    add_document_routes(router_, surroundings_);
+    add_dashboard(router_, surroundings_);
+  }
+
+  void answer(const httplib::Request& request, httplib::Response& response) {
+    const Clock::time_point begin = Clock::now();
+    std::string route = "none";
+    try {
+      const Router::Match match = router_.find(request.method, request.path);
+      route = match.route->pattern;
+      call(*match.route, {request, match.values}, response);
+    } catch (const Refused& refused) {
+      answer_with(response, refused.problem());
+    }
+    secure(response);
+    const std::chrono::duration<double> took = Clock::now() - begin;
+    // Methods are the client's words: of those that lead nowhere there could be any number.
+    const std::string method = route == "none" ? "any" : request.method;
+    surroundings_.metrics.observe(route, method, response.status == -1 ? 200 : response.status, took.count());
+  }
+
+  Surroundings surroundings_;
+
+ private:
+  Router router_;
+};
+
+Api::Api(StudyService& service, ApiOptions options)
+    : implementation_(std::make_unique<Implementation>(service, std::move(options))) {}
+
+Api::~Api() = default;
+
+void Api::answer(const httplib::Request& request, httplib::Response& response) {
+  implementation_->answer(request, response);
+}
+
+void Api::stop() {
+  implementation_->surroundings_.stop.request_stop();
+}
+
+}  // namespace steerstat
