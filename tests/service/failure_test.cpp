@@ -42,7 +42,7 @@ class Failure : public ServiceCase {
 };
 
 TEST_F(Failure, OfAShardIsToldAndItsTrialsRunAgain) {
-  const std::string spec = quick_spec(200'000);
+  const std::string spec = quick_spec(many_trials);
   const std::string id = interrupted(spec);
   const fs::path shard = files(id, "trials-").at(0);
   std::string bytes = testing_store::bytes_of(shard);
@@ -58,7 +58,7 @@ TEST_F(Failure, OfAShardIsToldAndItsTrialsRunAgain) {
 TEST_F(Failure, OfOneStudysFileSetsItAsideAndHindersNoOther) {
   const std::string good = service->submit(quick_spec(100)).state.id;
   wait_for(good, StudyStatus::succeeded);
-  const std::string bad = interrupted(quick_spec(200'000, 2));
+  const std::string bad = interrupted(quick_spec(many_trials, 2));
   testing_store::set_bytes(home(bad) / "study.h5", "nonsense");
   begin();
   EXPECT_FALSE(service->state(bad));
@@ -123,7 +123,7 @@ TEST_F(Failure, OfAnyStepOfASubmissionAcknowledgesNothingAndLeavesNothing) {
 TEST_F(Failure, OfAFullDiskFailsThatStudyKeepsItsTrialsAndTheServiceGoesOn) {
   // The first two files are the submission's; the fifth is a shard.
   set_failpoint("before-fsync:5:full");
-  const std::string spec = quick_spec(200'000);
+  const std::string spec = quick_spec(many_trials);
   const std::string id = service->submit(spec).state.id;
   const StudyState failed = wait_for_end(id);
   set_failpoint("");

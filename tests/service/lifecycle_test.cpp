@@ -65,7 +65,7 @@ TEST_F(Lifecycle, EveryStudyIsThereAfterARestart) {
 }
 
 TEST_F(Lifecycle, AStudyStoppedInTheMiddleGoesOnByItselfToTheSameBits) {
-  const std::string spec = quick_spec(200'000);
+  const std::string spec = quick_spec(many_trials);
   const std::string id = service->submit(spec).state.id;
   wait_for_kept_trials(id);
   service.reset();
@@ -73,7 +73,7 @@ TEST_F(Lifecycle, AStudyStoppedInTheMiddleGoesOnByItselfToTheSameBits) {
   begin();
   EXPECT_GT(service->state(id)->completed, 0U);
   wait_for(id, StudyStatus::succeeded);
-  EXPECT_LT(service->counters().trials_done, 200'000U) << "what was finished is not run again";
+  EXPECT_LT(service->counters().trials_done, many_trials) << "what was finished is not run again";
   expect_undisturbed(id, spec);
 }
 
@@ -91,25 +91,25 @@ TEST_F(Lifecycle, AnExtendedStudyRunsOnlyWhatIsNew) {
 }
 
 TEST_F(Lifecycle, AStudyExtendsOneThatIsUnfinishedFromWhatThatHasKept) {
-  const std::string shorter = service->submit(quick_spec(200'000)).state.id;
+  const std::string shorter = service->submit(quick_spec(many_trials)).state.id;
   wait_for_kept_trials(shorter);
   const std::uint64_t kept = service->cancel_or_remove(shorter).state.completed;
-  ASSERT_LT(kept, 200'000U);
+  ASSERT_LT(kept, many_trials);
   const std::uint64_t done = service->counters().trials_done;
-  const std::string longer = service->submit(quick_spec(200'100)).state.id;
+  const std::string longer = service->submit(quick_spec(many_trials + 100)).state.id;
   wait_for(longer, StudyStatus::succeeded);
-  EXPECT_EQ(service->counters().trials_done - done, 200'100U - kept);
+  EXPECT_EQ(service->counters().trials_done - done, many_trials + 100 - kept);
 }
 
 TEST_F(Lifecycle, ACancelledStudyKeepsItsTrialsAndGoesOnWhenItIsSubmittedAgain) {
-  const std::string spec = quick_spec(200'000);
+  const std::string spec = quick_spec(many_trials);
   const std::string id = service->submit(spec).state.id;
   wait_for_kept_trials(id);
   const auto [cancelled, removed] = service->cancel_or_remove(id);
   EXPECT_FALSE(removed);
   ASSERT_EQ(cancelled.status, StudyStatus::cancelled);
   ASSERT_GT(cancelled.completed, 0U);
-  ASSERT_LT(cancelled.completed, 200'000U);
+  ASSERT_LT(cancelled.completed, many_trials);
   EXPECT_EQ(service->trials(id, {}, 0, 1'000'000).rows.size(), cancelled.completed);
   EXPECT_THAT(service->summary(id).json, HasSubstr("\"complete\": false"));
   const StoredStudy partial = read_result(service->result_file(id).value());
@@ -120,7 +120,7 @@ TEST_F(Lifecycle, ACancelledStudyKeepsItsTrialsAndGoesOnWhenItIsSubmittedAgain) 
   EXPECT_EQ(service->trials(id, {}, 0, 1'000'000).rows.size(), cancelled.completed);
   EXPECT_FALSE(service->submit(spec).created);
   wait_for(id, StudyStatus::succeeded);
-  EXPECT_EQ(service->counters().trials_done, 200'000U - cancelled.completed);
+  EXPECT_EQ(service->counters().trials_done, many_trials - cancelled.completed);
   expect_undisturbed(id, spec);
 }
 
