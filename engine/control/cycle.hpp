@@ -17,6 +17,10 @@ inline constexpr double beta = 3.0 / 80080.0;
 /// cycle's |a|.
 inline constexpr double cycle_peak = 0.12352;
 
+/// The largest |value| on [0, 1] of (11)'s second integral, l^3 (1 - l)^3 (1 - 2 l) / 2 (at 0.311 and 0.689),
+/// rounded up; A times it bounds how far a cycle that starts at rest takes the first joint.
+inline constexpr double cycle_excursion = 0.0018595191;
+
 /// a(t) of (11) [m/s^2].
 ///
 /// @param amplitude A [m], @param period T [s] > 0, @param t [s] since the cycle's start, 0 <= t <= T

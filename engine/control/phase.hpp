@@ -31,6 +31,7 @@ struct Phase {
 
   PhaseKind kind{PhaseKind::align};
   double duration{unbounded};      ///< [s] longest it lasts; a cycle's period T
+  double pace{1.0};                ///< align: how much quicker than (10) it is; kp takes its square, kd itself
   double amplitude{0.0};           ///< [m] A of (11), cycles only
   double active_tolerance{-1.0};   ///< align: guard active_error - this; negative: no such guard
   double q2_low{-unbounded};       ///< [rad] drift: guard q2 - q2_low

@@ -5,7 +5,9 @@
 #include <numbers>
 
 #include "control/cycle.hpp"
+#include "control/robust_policy.hpp"
 #include "core/elementary.hpp"
+#include "core/function_clones.hpp"
 
 namespace steerstat {
 namespace {
@@ -58,7 +60,8 @@ Phase cycle(PhaseKind kind, double period, double amplitude) {
   return phase;
 }
 
-Phase align(const Controller& controller) {
+Phase align(const State<double>& x, const Controller& controller, const Goal& goal) {
+  if (controller.policy == Policy::robust) return align_robustly(x, controller, goal);
   Phase phase;
   phase.kind = PhaseKind::align;
   phase.active_tolerance = controller.alignment.tolerance;
@@ -154,14 +157,9 @@ void count(PhaseKind kind, Memory& memory) {
 
 }  // namespace
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
-// On the oldest x86-64 std::fma and std::floor are library calls; the clone for newer machines has the same bits. (The
-// sanitizers are not ready yet when the clone is chosen, and clang takes no clones of a flattened function.)
-[[gnu::target_clones("default", "fma"), gnu::flatten]]
-#endif
-std::optional<Status>
-decide(double t, const State<double>& x, const Controller& controller, const Goal& goal, Memory& memory, Phase& phase) {
+STEERSTAT_CLONED
+std::optional<Status> decide(double t, const State<double>& x, const Controller& controller, const Goal& goal,
+                             Memory& memory, Phase& phase) {
   const auto run = [&](const Phase& chosen) {
     phase = chosen;
     count(chosen.kind, memory);
@@ -171,19 +169,27 @@ decide(double t, const State<double>& x, const Controller& controller, const Goa
   const bool aligned = active <= controller.alignment.tolerance;
   const bool late = t >= controller.horizon - time_slack;
   // Every trial starts with align. An align that is skipped, or has no time left, counts as one that ended at once.
-  if (!memory.last && !aligned && !late && is_finite(x)) return run(align(controller));
+  if (!memory.last && !aligned && !late && is_finite(x)) return run(align(x, controller, goal));
 
   if (has_diverged(x, goal)) return Status::diverged;
   if (late || memory.decisions >= most_decisions) return Status::timeout;  // rule 1
-  if (memory.last && realigns_after(*memory.last, controller.realignment) && !aligned) return run(align(controller));
+  const bool robust = controller.policy == Policy::robust;
+  const Realignment realignment = robust ? Realignment::after_cycle : controller.realignment;
+  if (memory.last && realigns_after(*memory.last, realignment) && !aligned) return run(align(x, controller, goal));
 
   ++memory.decisions;
+  if (robust) learn(x, controller, goal, memory.experience);
   if (passive_error(x, goal) <= controller.convergence.tolerance) {  // rule 2
     if (active <= controller.convergence.active_tolerance) return Status::converged;
-    return run(align(controller));
+    return run(align(x, controller, goal));
   }
   const PassiveJoint joint = passive_joint(x, goal);
   if (std::abs(joint.sine) <= 1e-6 && std::abs(x.q2_dot) <= 1e-6) return Status::singular;  // rule 3
+  if (robust) {
+    run(steer_robustly(x, memory.experience, controller, goal));
+    embark(phase, x, memory.experience);
+    return std::nullopt;
+  }
   return run(steer(x, joint, controller, goal));
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "control/controller.hpp"
+#include "control/experience.hpp"
 #include "control/goal.hpp"
 #include "control/phase.hpp"
 #include "core/state.hpp"
@@ -18,6 +19,7 @@ struct Memory {
   std::uint32_t cycles{0};          ///< contraction cycles started
   std::uint32_t swings{0};          ///< swings started
   std::uint32_t alignments{0};      ///< alignments started
+  Experience experience{};          ///< robust policy: what it learned of the trial
 
   friend bool operator==(const Memory&, const Memory&) = default;
 };
@@ -32,8 +34,9 @@ struct Decision {
 /// A trial that has decided this often stops with Status::timeout.
 inline constexpr std::uint32_t most_decisions = 10000;
 
-/// The supervisor: rules 1-7 of CONTROLLER.md section 5 (§4.2 of the paper), called at the start of a trial and at the
-/// end of every phase. A pure function; its bits do not depend on the machine.
+/// The supervisor, called at the start of a trial and at the end of every phase: rules 1-7 of CONTROLLER.md section 5
+/// (§4.2 of the paper) or, under Policy::robust, those of README.md beside this file. A pure function; its bits do not
+/// depend on the machine.
 ///
 /// @param t       [s] since the trial's start
 /// @param x       measured state

@@ -26,10 +26,12 @@ struct ClosedLoop {
   Actuator<Real> actuator{};
 };
 
-/// (10), of what is read of the first joint. @return a [m/s^2]
+/// (10) at the phase's pace, of what is read of the first joint. @return a [m/s^2]
 template <class Real>
 Real align_acceleration(const ClosedLoop<Real>& loop, const Phase& phase, const State<Real>& x) {
-  return loop.kp * (loop.q1_goal - (x.q1 + Real(phase.q1_offset))) - loop.kd * (x.q1_dot + Real(phase.q1_dot_offset));
+  const Real kp = loop.kp * Real(phase.pace * phase.pace);
+  const Real kd = loop.kd * Real(phase.pace);
+  return kp * (loop.q1_goal - (x.q1 + Real(phase.q1_offset))) - kd * (x.q1_dot + Real(phase.q1_dot_offset));
 }
 
 /// The acceleration a [m/s^2] that `phase` asks of the first joint: (10), 0 or (11).

@@ -77,11 +77,12 @@ bool is_imperfection(const Input& input) {
 }
 
 // A study without imperfections mentions none, so that it is the same study to an engine that knows of none; in another
-// they are all filled in, but for the force limit that is no number.
-bool is_mentioned(const Input& input, bool has_imperfections) {
-  if (!is_imperfection(input)) return true;
+// they are all filled in, but for a limit that is no number. What the other policy alone reads is never mentioned.
+bool is_mentioned(const Input& input, Policy policy, bool has_imperfections) {
   const auto* number = std::get_if<double>(&input.value);
-  return has_imperfections && (number == nullptr || std::isfinite(*number));
+  if (number != nullptr && !std::isfinite(*number)) return false;
+  if (is_imperfection(input)) return has_imperfections;
+  return find_input(input.name)->policy.value_or(policy) == policy;
 }
 
 // Puts an input's value where its dotted name says.
@@ -103,9 +104,13 @@ Canonical encode_study(const Study& study) {
     return is_imperfection(input) && !is_off(input);
   });
   for (const Input& input : study.inputs) {
-    if (is_mentioned(input, has_imperfections)) place(input, spec);
+    if (is_mentioned(input, study.policy, has_imperfections)) place(input, spec);
   }
-  spec["controller"]["realignment"] = realignment_names[static_cast<std::size_t>(study.realignment)];
+  if (study.policy == Policy::paper) {
+    spec["controller"]["realignment"] = realignment_names[static_cast<std::size_t>(study.realignment)];
+  } else {
+    spec["controller"]["policy"] = name_of(study.policy);
+  }
   spec["goal"] = {{"q1", study.goal.q1}, {"q2", study.goal.q2}};
   spec["horizon"] = study.horizon;
   spec["integrator"]["method"] = IntegratorChoice::method_names[static_cast<std::size_t>(study.integrator.method)];

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -36,14 +37,17 @@ struct InputDefinition {
   /// An imperfection (engine/robot/README.md) is off by default and has no nominal value; the canonical spec of a study
   /// with none of them mentions none.
   bool is_imperfection{false};
+  /// The one policy whose rules read it; nothing where both do, or none. The canonical spec of a study with the other
+  /// policy does not mention it.
+  std::optional<Policy> policy{};
 
   /// The value of a spec that does not mention it (and whose nominal plant is the default one). Outside the range, as
-  /// it is infinite, for actuator.max_force alone.
+  /// it is infinite, for actuator.max_force and controller.max_stroke alone.
   [[nodiscard]] double default_value() const;
 };
 
 /// How many inputs there are.
-inline constexpr std::size_t input_count = 41;
+inline constexpr std::size_t input_count = 50;
 
 /// Every input, in the order of the spec's documentation.
 std::span<const InputDefinition> input_definitions();

@@ -25,6 +25,7 @@ TrialParameters fixed_parameters(const Study& study) {
   parameters.nominal = study.nominal;
   parameters.plant = study.nominal;
   parameters.goal = study.goal;
+  parameters.controller.policy = study.policy;
   parameters.controller.realignment = study.realignment;
   parameters.controller.horizon = study.horizon;
   parameters.controller.coupling = coupling(study.nominal);

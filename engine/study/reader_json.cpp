@@ -24,6 +24,7 @@ std::vector<std::string_view> places_in_spec() {
                                        "sampling.file",
                                        "sampling.correlation",
                                        "sampling.base",
+                                       "controller.policy",
                                        "controller.realignment",
                                        "retain.trajectories",
                                        "intervals.method",

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "control/cycle.hpp"
 #include "robot/plant.hpp"
+#include "study/inputs.hpp"
 #include "study/limits.hpp"
 
 namespace steerstat {
@@ -58,6 +60,38 @@ class Rules {
       const double low = active_column ? listed(row, *active_column) : values_of(active).low;
       if (low < high) refuse("/sampling", fmt::format("in trial {} ", row), low, high);
     }
+  }
+
+  // A number that no rule reads would look like one that makes no difference.
+  void check_policy() {
+    if (is_mistaken("controller.policy")) return;
+    const auto refuse = [&](const std::string& pointer, const std::string& name, Policy reader) {
+      errors_.push_back({pointer, fmt::format("the policy \"{}\" does not read {} (it is of the policy \"{}\" alone); "
+                                              "remove it, or choose that policy",
+                                              name_of(study_.policy), name, name_of(reader))});
+    };
+    for (const Input& input : study_.inputs) {
+      const InputDefinition& definition = *find_input(input.name);
+      if (definition.policy.value_or(study_.policy) == study_.policy) continue;
+      const auto* number = std::get_if<double>(&input.value);
+      const bool is_set = number == nullptr || *number != definition.default_value();
+      if (is_set && !is_mistaken(input.name)) refuse(pointer_to(input.name), input.name, *definition.policy);
+      if (column_of(input.name) && !is_mistaken("sampling")) refuse("/sampling", input.name, *definition.policy);
+    }
+    if (study_.policy != Policy::paper && study_.realignment != Realignment::after_cycle) {
+      refuse("/controller/realignment", "controller.realignment", Policy::paper);
+    }
+  }
+
+  // The stroke is a metric.
+  void check_stroke() {
+    static const std::string stroke = "controller.max_stroke";
+    if (study_.integrator.metrics || is_mistaken(stroke)) return;
+    const bool is_listed = column_of(stroke).has_value();
+    if (!is_listed && !(values_of(stroke).low < std::numeric_limits<double>::infinity())) return;
+    errors_.push_back({is_listed ? "/sampling" : pointer_to(stroke),
+                       "a stroke limit in a study without metrics (the stroke is one of them); remove \"metrics\": "
+                       "false"});
   }
 
   void check_sampling() {
@@ -196,6 +230,8 @@ void check_rules(const Study& study, const std::vector<std::string>& mistaken, s
   Rules rules(study, mistaken, errors);
   rules.check_coupling();
   rules.check_tolerances();
+  rules.check_policy();
+  rules.check_stroke();
   rules.check_sampling();
   rules.check_size();
 }

@@ -150,7 +150,9 @@ class Decoder {
       const auto member = reader.find(key);
       if (!member) continue;
       const std::string name = fmt::format("{}.{}", prefix, key);
-      if (name == "controller.realignment") {
+      if (name == "controller.policy") {
+        decode_policy(*member);
+      } else if (name == "controller.realignment") {
         const auto position = member->one_of(realignment_names);
         if (position) study_.realignment = static_cast<Realignment>(*position);
       } else if (const InputDefinition* definition = find_input(name)) {
@@ -161,9 +163,18 @@ class Decoder {
     }
   }
 
+  void decode_policy(const Reader& reader) {
+    const auto position = reader.one_of(policy_names);
+    if (position) {
+      study_.policy = static_cast<Policy>(*position);
+    } else {
+      mistaken_.emplace_back("controller.policy");
+    }
+  }
+
   static std::vector<std::string_view> keys_below(const std::string& prefix) {
     std::vector<std::string_view> keys;
-    if (prefix == "controller") keys.emplace_back("realignment");
+    if (prefix == "controller") keys = {"policy", "realignment"};
     for (const InputDefinition& definition : input_definitions()) {
       if (!definition.name.starts_with(prefix + ".")) continue;
       const std::string_view key = component(definition.name, prefix.size() + 1);

@@ -94,6 +94,7 @@ struct Study {
   std::string name{"study"};
   PlantParameters<double> nominal{};
   std::vector<Input> inputs;  ///< every number that may vary, in the order of input_names()
+  Policy policy{Policy::paper};
   Realignment realignment{Realignment::after_cycle};
   Goal goal{goal_at(0.0, 0.7853981633974483)};
   double horizon{300.0};  ///< [s]

@@ -52,11 +52,20 @@ inline void report_exertion(const Exertion& exertion, TrialOutcome& outcome) {
   outcome.peak_stroke = finite(exertion.peak_stroke);
 }
 
+/// Whether a trial has gone beyond its stroke limit (controller.max_stroke). Judged at its start and whenever a phase
+/// has ended, it has diverged then.
+///
+/// @param exertion  measured up to there
+inline bool exceeds_stroke(const TrialParameters& parameters, const Exertion& exertion) {
+  return exertion.peak_stroke > parameters.controller.max_stroke;
+}
+
 /// Runs one trial, phase by phase, as CONTROLLER.md section 5 says.
 ///
+/// @param exertion  of the trial so far, which `advance` keeps up to date; the start's where none is measured
 /// @param advance  (const Phase&, double t, const State<double>& x, double t_end) -> Arrival, the integrator
 template <class Advance>
-TrialOutcome run_course(const TrialParameters& parameters, Advance&& advance) {
+TrialOutcome run_course(const TrialParameters& parameters, const Exertion& exertion, Advance&& advance) {
   const Goal& goal = parameters.goal;
   double t = 0.0;
   State<double> x = parameters.start;
@@ -64,6 +73,9 @@ TrialOutcome run_course(const TrialParameters& parameters, Advance&& advance) {
   ContractionRecord contraction;
   Phase phase;
   while (true) {
+    if (exceeds_stroke(parameters, exertion)) {
+      return outcome_of(Status::diverged, t, x, supervision.memory(), contraction, goal);
+    }
     const std::optional<Status> ended = supervision.decide(parameters, t, x, phase);
     if (ended) return outcome_of(*ended, t, x, supervision.memory(), contraction, goal);
     contraction.start(phase, t, x, goal, parameters.controller.horizon);

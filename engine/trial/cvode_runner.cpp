@@ -14,7 +14,7 @@ void CvodeRunner::run(TrialStream& stream) {
     Exertion exertion = exertion_at(parameters.start, parameters.goal.q1);
     Exertion* measured = metrics_ ? &exertion : nullptr;
     TrialOutcome outcome =
-        run_course(parameters, [&](const Phase& phase, double t, const State<double>& x, double t_end) {
+        run_course(parameters, exertion, [&](const Phase& phase, double t, const State<double>& x, double t_end) {
           return integrator_.advance(loop, phase, t, x, t_end, nullptr, measured);
         });
     if (metrics_) report_exertion(exertion, outcome);

@@ -38,6 +38,10 @@ void LockstepRunner::report(TrialStream& stream, int lane, Status status, double
 bool LockstepRunner::carry_on(TrialStream& stream, int lane, double t, const State<double>& x) {
   Seat& seat = seats_[static_cast<std::size_t>(lane)];
   const TrialParameters& parameters = seat.parameters;
+  if (metrics_ && exceeds_stroke(parameters, engine_->exertion(lane))) {
+    report(stream, lane, Status::diverged, t, x);
+    return false;
+  }
   Phase phase;
   if (const std::optional<Status> ended = seat.supervision.decide(parameters, t, x, phase)) {
     report(stream, lane, *ended, t, x);

@@ -52,13 +52,14 @@ Trajectory record(const TrialParameters& parameters, Integrator integrator, bool
   Exertion exertion = exertion_at(parameters.start, parameters.goal.q1);
   Exertion* measured = metrics ? &exertion : nullptr;
   Trajectory trajectory;
-  trajectory.outcome = run_course(parameters, [&](const Phase& phase, double t, const State<double>& x, double t_end) {
-    PhaseSampler sampler(loop, phase, t, interval, trajectory.samples);
-    sampler.take(t, x);
-    const Arrival arrival = integrator.advance(loop, phase, t, x, t_end, &sampler, measured);
-    sampler.take(arrival.t, arrival.state);
-    return arrival;
-  });
+  trajectory.outcome =
+      run_course(parameters, exertion, [&](const Phase& phase, double t, const State<double>& x, double t_end) {
+        PhaseSampler sampler(loop, phase, t, interval, trajectory.samples);
+        sampler.take(t, x);
+        const Arrival arrival = integrator.advance(loop, phase, t, x, t_end, &sampler, measured);
+        sampler.take(arrival.t, arrival.state);
+        return arrival;
+      });
   if (metrics) report_exertion(exertion, trajectory.outcome);
   return trajectory;
 }

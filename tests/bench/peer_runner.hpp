@@ -20,10 +20,10 @@ class PeerRunner final : public TrialRunner {
     TrialParameters parameters;
     while (stream.next(index, parameters)) {
       const ClosedLoop<double> loop = closed_loop_of(parameters);
-      stream.finished(index,
-                      run_course(parameters, [&](const Phase& phase, double t, const State<double>& x, double t_end) {
-                        return peer_->advance(loop, phase, t, x, t_end);
-                      }));
+      stream.finished(index, run_course(parameters, Exertion{},
+                                        [&](const Phase& phase, double t, const State<double>& x, double t_end) {
+                                          return peer_->advance(loop, phase, t, x, t_end);
+                                        }));
     }
   }
 

@@ -45,6 +45,15 @@ TEST(Inputs, DefaultsAreThoseOfTheControllersDefinition) {
   EXPECT_EQ(value("controller.contraction.max_period"), 30.0);
   EXPECT_EQ(value("controller.convergence.tolerance"), 0.005);
   EXPECT_EQ(value("controller.convergence.active_tolerance"), 0.02);
+  EXPECT_EQ(value("controller.alignment.max_duration"), 3.5);
+  EXPECT_EQ(value("controller.robust.rate"), 0.4);
+  EXPECT_EQ(value("controller.robust.period"), 1.8);
+  EXPECT_EQ(value("controller.robust.alignment_time"), 1.2);
+  EXPECT_EQ(value("controller.robust.travel_speed"), 0.25);
+  EXPECT_EQ(value("controller.robust.entry_fraction"), 0.3);
+  EXPECT_EQ(value("controller.robust.turning_angle"), 0.6);
+  EXPECT_EQ(value("controller.robust.max_acceleration"), 19.0);
+  EXPECT_EQ(value("controller.max_stroke"), INFINITY);
 }
 
 TEST(Inputs, ImperfectionsAreOffByDefault) {
@@ -71,7 +80,8 @@ TEST(Inputs, EveryInputHasItsOwnNameAndPlace) {
     names.insert(definition.name);
     places.insert(&definition.field(parameters));
     EXPECT_FALSE(definition.unit.empty()) << definition.name;
-    const bool limits = definition.name != "actuator.max_force";  // no limit is no number
+    // No limit is no number.
+    const bool limits = definition.name != "actuator.max_force" && definition.name != "controller.max_stroke";
     EXPECT_EQ(definition.range.contains(definition.default_value()), limits) << definition.name;
   }
   EXPECT_EQ(names.size(), input_count);

@@ -47,6 +47,18 @@ const char* const canonical_empty_spec =
     R"("nominal":{"I2":1,"d2":0.5,"f1":0,"f2":0,"m1":1,"m2":1},"plant":{"I2":1,"d2":0.5,"f1":0,"f2":0,"m1":1,"m2":1},)"
     R"("retain":{"trajectories":{"failed":0,"first":0}},"sampling":{"method":"monte_carlo","seed":1,"trials":1}})";
 
+TEST(CanonicalSpec, MentionsWhatThePolicyReads) {
+  const std::string paper = canonical_spec(study_of(R"({"controller": {"policy": "paper", "robust": {"rate": 0.4}}})"));
+  EXPECT_EQ(paper, canonical_empty_spec);  // the identity that studies had before there were policies
+  const std::string robust = canonical_spec(study_of(R"({"controller": {"policy": "robust"}})"));
+  EXPECT_THAT(robust, HasSubstr(R"("controller":{"alignment":{"kd":5,"kp":7,"max_duration":3.5,"tolerance":0.001},)"
+                                R"("convergence":{"active_tolerance":0.02,"tolerance":0.005},"policy":"robust",)"
+                                R"("robust":{"alignment_time":1.2,"entry_fraction":0.3,"max_acceleration":19,)"
+                                R"("period":1.8,"rate":0.4,"travel_speed":0.25,"turning_angle":0.6},)"
+                                R"("swing":{"min_authority":0.4}})"));
+  EXPECT_THAT(canonical_spec(study_of(R"({"controller": {"max_stroke": 1.5}})")), HasSubstr(R"("max_stroke":1.5,)"));
+}
+
 TEST(DecodeStudy, TheEmptySpecHasEveryDefault) {
   const Study study = study_of("{}");
   Study expected;

@@ -76,7 +76,7 @@ template <class Integrator>
 Exertion brute_force(const TrialParameters& trial, Integrator integrator) {
   BruteForce measured(trial);
   const ClosedLoop<double> loop = closed_loop_of(trial);
-  (void)run_course(trial, [&](const Phase& phase, double t, const State<double>& x, double t_end) {
+  (void)run_course(trial, measured.exertion, [&](const Phase& phase, double t, const State<double>& x, double t_end) {
     measured.start(phase, t);
     return integrator.advance(loop, phase, t, x, t_end, &measured);
   });
