@@ -205,7 +205,7 @@ TEST(ValidateCommand, AcceptsEveryShippedSpec) {
     EXPECT_EQ(steerstat({"validate", entry.path().string()}).exit_code, 0) << entry.path();
     ++specs;
   }
-  EXPECT_GE(specs, 15);
+  EXPECT_GE(specs, 30);
 }
 
 }  // namespace
