@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <httplib.h>
 
 #include <nlohmann/json.hpp>
@@ -29,17 +30,18 @@ std::pair<std::string, std::string> ids_of(const StudyService& service, const st
   const auto id = [&](const std::string& key) -> std::string {
     const auto found = document.find(key);
     if (found == document.end() || !found->is_string()) {
-      errors.push_back(
-          {found == document.end() ? "" : "/" + key, key + " is not the id of a study; give both a and b"});
+      errors.push_back({found == document.end() ? "" : fmt::format("/{}", key),
+                        key + " is not the id of a study; give both a and b"});
       return "";
     }
     const std::string value = found->get<std::string>();
-    if (!service.state(value)) errors.push_back({"/" + key, "there is no study " + quote(value)});
+    if (!service.state(value)) errors.push_back({fmt::format("/{}", key), "there is no study " + quote(value)});
     return value;
   };
   std::pair<std::string, std::string> ids{id("a"), id("b")};
   for (const auto& [key, value] : document.items()) {
-    if (key != "a" && key != "b") errors.push_back({"/" + pointer_token(key), "unknown key; known are a and b"});
+    if (key != "a" && key != "b")
+      errors.push_back({fmt::format("/{}", pointer_token(key)), "unknown key; known are a and b"});
   }
   if (!errors.empty()) throw BadSpec(std::move(errors));
   return ids;
