@@ -15,6 +15,7 @@ void add_show(CLI::App& program, ExitCode& exit_code);
 void add_replay(CLI::App& program, ExitCode& exit_code);
 void add_export(CLI::App& program, ExitCode& exit_code);
 void add_compare(CLI::App& program, ExitCode& exit_code);
+void add_report(CLI::App& program, ExitCode& exit_code);
 void add_serve(CLI::App& program, ExitCode& exit_code);
 
 }  // namespace steerstat

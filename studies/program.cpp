@@ -28,6 +28,7 @@ constexpr const char* epilogue = R"(Examples:
   steerstat replay result.h5 --trial 3 -o 3.csv  the trajectory of one trial
   steerstat export result.h5 -o trials.csv       every trial as a row
   steerstat compare a.h5 b.h5                    two studies on the same draws, trial by trial
+  steerstat report result.h5 -o result.html      one page of figures, to look at and to send
   steerstat serve                                the same behind an HTTP API
 
 Exit codes: 0 done and every gate passed, 1 a gate failed, 2 bad usage or bad spec (nothing is written), 3 a gate was
@@ -95,6 +96,7 @@ ExitCode parse_and_run(int argc, const char* const* argv) {
   add_replay(program, exit_code);
   add_export(program, exit_code);
   add_compare(program, exit_code);
+  add_report(program, exit_code);
   add_serve(program, exit_code);
   for (CLI::App* command : program.get_subcommands({})) command->group("Commands");
   try {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -56,25 +55,9 @@ void require_known_format(const std::filesystem::path& output) {
       fmt::format("cannot write a trajectory to {} (unknown format); end the name in .csv or .json", output.string()));
 }
 
-/// `then` with the metrics of `now` where it has none: a file from before there were metrics holds none.
-TrialOutcome with_missing_metrics(TrialOutcome then, const TrialOutcome& now) {
-  const auto fill = [](double& value, double other) {
-    if (std::isnan(value)) value = other;
-  };
-  fill(then.effort, now.effort);
-  fill(then.peak_acceleration, now.peak_acceleration);
-  fill(then.peak_force, now.peak_force);
-  fill(then.peak_stroke, now.peak_stroke);
-  fill(then.position_contraction.mean, now.position_contraction.mean);
-  fill(then.position_contraction.worst, now.position_contraction.worst);
-  fill(then.velocity_contraction.mean, now.velocity_contraction.mean);
-  fill(then.velocity_contraction.worst, now.velocity_contraction.worst);
-  return then;
-}
-
 void require_same_end(const TrialOutcome& now, const TrialOutcome& then, const StoredStudy& stored,
                       const std::string& file, std::uint64_t index) {
-  if (same_bits(now, with_missing_metrics(then, now))) return;
+  if (bears_out(now, then)) return;
   std::string why = "the file was computed by another build or on another machine, or was changed";
   if (stored.engine_version != engine_version()) {
     why = fmt::format("the file is of engine {}, this is {}; replay it with that version", stored.engine_version,

@@ -6,6 +6,9 @@
 program_packages=(cmake g++ libboost-dev libcli11-dev libcpp-httplib-dev libeigen3-dev libfmt-dev libhdf5-dev
   librandom123-dev libssl-dev libsundials-dev libtbb-dev ninja-build nlohmann-json3-dev pkg-config python3 python3-yaml)
 
+# What `studies/run paper` draws with.
+figure_packages=(python3-matplotlib)
+
 logs=build/logs  # of everything that is not shown
 runner=()        # what builds and tests are run under
 

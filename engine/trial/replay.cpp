@@ -1,5 +1,6 @@
 #include "trial/replay.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/elementary.hpp"
@@ -47,17 +48,23 @@ class PhaseSampler final : public StepObserver {
 };
 
 template <class Integrator>
-Trajectory record(const TrialParameters& parameters, Integrator integrator, bool metrics, double interval) {
+Trajectory record(const TrialParameters& parameters, Integrator integrator, bool metrics, double interval,
+                  int per_cycle) {
   const ClosedLoop<double> loop = closed_loop_of(parameters);
   Exertion exertion = exertion_at(parameters.start, parameters.goal.q1);
   Exertion* measured = metrics ? &exertion : nullptr;
   Trajectory trajectory;
   trajectory.outcome =
       run_course(parameters, exertion, [&](const Phase& phase, double t, const State<double>& x, double t_end) {
-        PhaseSampler sampler(loop, phase, t, interval, trajectory.samples);
+        const std::size_t first = trajectory.samples.size();
+        const double longest = per_cycle > 0 ? phase.duration / per_cycle : interval;
+        PhaseSampler sampler(loop, phase, t, std::min(interval, longest), trajectory.samples);
         sampler.take(t, x);
         const Arrival arrival = integrator.advance(loop, phase, t, x, t_end, &sampler, measured);
         sampler.take(arrival.t, arrival.state);
+        const bool cut =
+            arrival.cause == Cause::failure || (arrival.cause == Cause::time && t + phase.duration > t_end);
+        trajectory.phases.push_back({phase.kind, first, trajectory.samples.size() - 1, !cut});
         return arrival;
       });
   if (metrics) report_exertion(exertion, trajectory.outcome);
@@ -66,17 +73,33 @@ Trajectory record(const TrialParameters& parameters, Integrator integrator, bool
 
 }  // namespace
 
-Trajectory replay(const TrialParameters& parameters, const IntegratorChoice& choice, double interval) {
+Trajectory replay(const TrialParameters& parameters, const IntegratorChoice& choice, double interval, int per_cycle) {
   if (!(interval > 0.0)) throw BadUsage("the sampling interval must be positive");
   switch (choice.method) {
     case IntegratorChoice::Method::cvode:
-      return record(parameters, CvodeIntegrator(choice.tolerance), choice.metrics, interval);
+      return record(parameters, CvodeIntegrator(choice.tolerance), choice.metrics, interval, per_cycle);
     case IntegratorChoice::Method::lockstep:
       return record(parameters,
                     LockstepIntegrator(choice.tolerance, best_instruction_set(), 0, loop_kind_of(parameters)),
-                    choice.metrics, interval);
+                    choice.metrics, interval, per_cycle);
   }
   throw RunFailure("unknown integration method");
+}
+
+bool bears_out(const TrialOutcome& now, const TrialOutcome& then) {
+  TrialOutcome known = then;
+  const auto fill = [](double& value, double other) {
+    if (std::isnan(value)) value = other;
+  };
+  fill(known.effort, now.effort);
+  fill(known.peak_acceleration, now.peak_acceleration);
+  fill(known.peak_force, now.peak_force);
+  fill(known.peak_stroke, now.peak_stroke);
+  fill(known.position_contraction.mean, now.position_contraction.mean);
+  fill(known.position_contraction.worst, now.position_contraction.worst);
+  fill(known.velocity_contraction.mean, now.velocity_contraction.mean);
+  fill(known.velocity_contraction.worst, now.velocity_contraction.worst);
+  return same_bits(now, known);
 }
 
 }  // namespace steerstat

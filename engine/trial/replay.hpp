@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "control/phase.hpp"
@@ -17,17 +18,33 @@ struct TrajectorySample {
   PhaseKind phase;  ///< the phase under way
 };
 
+/// Where a phase of a trajectory stands.
+struct PhaseSpan {
+  PhaseKind kind;
+  std::size_t first;  ///< its first sample
+  std::size_t last;   ///< its last sample, that of its end
+  bool whole;         ///< whether it ended as it should, neither at the horizon nor because the integration failed
+};
+
 /// A trial's whole course.
 struct Trajectory {
   /// In time order; every phase contributes its start and its end (so boundaries appear twice, once a phase) and the
   /// multiples of the sampling interval between them.
   std::vector<TrajectorySample> samples;
-  TrialOutcome outcome;  ///< the same bits as the run's
+  TrialOutcome outcome;           ///< the same bits as the run's
+  std::vector<PhaseSpan> phases;  ///< in time order
 };
 
 /// Recomputes a trial with its trajectory.
 ///
-/// @param interval  [s] > 0 between samples inside a phase
-Trajectory replay(const TrialParameters& parameters, const IntegratorChoice& integrator, double interval = 0.05);
+/// @param interval   [s] > 0 between samples inside a phase
+/// @param per_cycle  where positive, samples of a cycle are no farther apart than its period over this many: cycles may
+///                   be shorter than the interval
+Trajectory replay(const TrialParameters& parameters, const IntegratorChoice& integrator, double interval = 0.05,
+                  int per_cycle = 0);
+
+/// Whether a trial recomputed `now` ended in the same bits as `then`, but for metrics that `then` does not have: files
+/// from before there were metrics hold none.
+bool bears_out(const TrialOutcome& now, const TrialOutcome& then);
 
 }  // namespace steerstat

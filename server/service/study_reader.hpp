@@ -3,11 +3,14 @@
 #include <functional>
 #include <mutex>
 #include <span>
+#include <string>
+#include <string_view>
 
 #include "report/comparison.hpp"
 #include "service/catalogue.hpp"
 #include "service/opened_studies.hpp"
 #include "service/study_rows.hpp"
+#include "service/study_views.hpp"
 
 namespace steerstat {
 
@@ -28,7 +31,16 @@ class StudyReader {
   [[nodiscard]] std::optional<std::filesystem::path> result_file(const StudyEntry& entry);
   [[nodiscard]] Comparison compare(const StudyEntry& a, const StudyEntry& b);
 
-  void forget(const std::string& id) { opened_.forget(id); }
+  // Documents of schemas/view.schema.json.
+  [[nodiscard]] StudyViews::Text study_view(const StudyEntry& entry);
+  [[nodiscard]] std::string success_map(const StudyEntry& entry, std::string_view x, std::string_view y);
+  [[nodiscard]] std::string trial_view(const StudyEntry& entry, std::uint64_t index);
+  [[nodiscard]] std::string comparison_view(const StudyEntry& a, const StudyEntry& b);
+
+  void forget(const std::string& id) {
+    opened_.forget(id);
+    views_.forget(id);
+  }
 
  private:
   /// Finished trials as they lie somewhere in memory.
@@ -46,6 +58,7 @@ class StudyReader {
 
   const Catalogue& catalogue_;
   OpenedStudies opened_;
+  StudyViews views_{};
   std::mutex comparing_{};  // one at a time: each holds two studies and their parameters
 };
 

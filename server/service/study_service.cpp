@@ -274,6 +274,22 @@ Comparison StudyService::compare(const std::string& a, const std::string& b) con
   return implementation_->reader().compare(*implementation_->known(a), *implementation_->known(b));
 }
 
+std::shared_ptr<const std::string> StudyService::study_view(const std::string& id) const {
+  return implementation_->reader().study_view(*implementation_->known(id));
+}
+
+std::string StudyService::success_map(const std::string& id, std::string_view x, std::string_view y) const {
+  return implementation_->reader().success_map(*implementation_->known(id), x, y);
+}
+
+std::string StudyService::trial_view(const std::string& id, std::uint64_t index) const {
+  return implementation_->reader().trial_view(*implementation_->known(id), index);
+}
+
+std::string StudyService::comparison_view(const std::string& a, const std::string& b) const {
+  return implementation_->reader().comparison_view(*implementation_->known(a), *implementation_->known(b));
+}
+
 ServiceCounters StudyService::counters() const {
   ServiceCounters counters = implementation_->catalogue().counters();
   counters.trials_done = implementation_->runner().trials_done();

@@ -131,6 +131,20 @@ class StudyService {
   /// Compares the finished trials of two studies, those of B with those of A. @throws StudiesDoNotPair too
   [[nodiscard]] Comparison compare(const std::string& a, const std::string& b) const;
 
+  // What a page draws of them: documents of schemas/view.schema.json.
+
+  /// A study, without maps. Kept while it is asked for; of a running one it is made anew now and then.
+  [[nodiscard]] std::shared_ptr<const std::string> study_view(const std::string& id) const;
+
+  /// @throws NoSuchAxis and BadUsage as success_map() does
+  [[nodiscard]] std::string success_map(const std::string& id, std::string_view x, std::string_view y) const;
+
+  /// Computes a finished trial again. @throws as trajectory()
+  [[nodiscard]] std::string trial_view(const std::string& id, std::uint64_t index) const;
+
+  /// @throws as compare()
+  [[nodiscard]] std::string comparison_view(const std::string& a, const std::string& b) const;
+
   [[nodiscard]] ServiceCounters counters() const;
   [[nodiscard]] const ServiceLimits& limits() const;
 

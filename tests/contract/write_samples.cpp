@@ -1,5 +1,5 @@
 // Writes what the program cannot be made to write at will: results of interrupted runs, every outcome, no trial at all,
-// verdicts on a baseline, a name that no spec may have.
+// verdicts on a baseline, a name that no spec may have; and views of every kind.
 //
 //   write_contract_samples DIRECTORY
 #include <filesystem>
@@ -11,6 +11,10 @@
 #include "report/junit.hpp"
 #include "report/summary.hpp"
 #include "store/result_file.hpp"
+#include "view/comparison_view.hpp"
+#include "view/report_view.hpp"
+#include "view/study_view.hpp"
+#include "view/trial_view.hpp"
 
 namespace {
 
@@ -39,6 +43,37 @@ void write_comparisons(const std::filesystem::path& directory, const Study& stud
   std::ofstream(directory / "hopeless_comparison.json") << comparison_json(compare(a.compared(), b.compared()));
 }
 
+/// Views of every kind: of a swept study that was interrupted, of a small one that ran, of two that were compared.
+void write_views(const std::filesystem::path& directory, const Study& swept, const StudyResult& interrupted) {
+  const auto write_text = [&](const char* name, const std::string& text) { std::ofstream(directory / name) << text; };
+  testing_report::Finished parts{swept, interrupted, {}};
+  testing_report::store_parameters(parts);
+  const ViewedStudy viewed{parts.study, parts.result, parts.parameters};
+  write_text("swept_view.json", study_view_json(study_view(viewed, summarise(parts.study, parts.result))));
+  write_text("map_view.json", success_map_json(success_map(viewed, "controller.contraction.eta1", "plant.f2")));
+
+  const auto a = testing_report::finished(testing_report::drawn_spec(70), 1);
+  const auto b = testing_report::finished(testing_report::drawn_spec(70, R"(, "horizon": 100)"), 2);
+  write_text("comparison_view.json", comparison_view_json(comparison_view(a.compared(), b.compared())));
+
+  // The outcomes of a report's trials are checked, so that they must be true.
+  auto ran = testing_report::finished(R"({"plant": {"f2": {"uniform": [0, 0.04]}}, "sampling": {"trials": 2}})");
+  for (std::size_t row = 0; row < 2; ++row) {
+    const TrialParameters parameters = Plan(ran.study).parameters(row);
+    ran.result.trials.outcomes[row] = replay(parameters, ran.study.integrator).outcome;
+    if (row > 0) continue;
+    const Trajectory trajectory = replay_for_view(parameters, ran.study.integrator);
+    write_text("trial_view.json", trial_view_json(trial_view(ran.study, row, parameters, trajectory, 100)));
+  }
+  ReportOptions options;
+  options.file = "of <no> consequence.h5";
+  options.created = "2001-05-21T00:00:00Z";
+  options.failed = options.converged = 1;
+  options.trial_points = 40;
+  const Summary summary = summarise(ran.study, ran.result);
+  write_text("report_view.json", report_of({ran.study, ran.result, ran.parameters}, summary, options).document);
+}
+
 }  // namespace
 
 int main(int, char** arguments) {
@@ -57,6 +92,7 @@ int main(int, char** arguments) {
   write(directory, "interrupted", study, interrupted);
 
   write_comparisons(directory, study, every_outcome, interrupted);
+  write_views(directory, study, interrupted);
 
   Summary judged = summarise(study, interrupted);
   Baseline baseline;

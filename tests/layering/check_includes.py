@@ -22,6 +22,8 @@ ROOMS = {
     "study": {"core", "robot", "control", "sampling", "statistics", "trial"},
     "store": {"core", "robot", "control", "sampling", "trial", "study"},
     "report": {"core", "robot", "control", "sampling", "statistics", "trial", "study"},
+    "view": {"core", "robot", "control", "sampling", "statistics", "trial", "study", "report"},
+    "page": {"core"},
 }
 # What stands on the engine may include all of it.
 PROGRAMS = {"server": set(ROOMS), "studies": set(ROOMS) | {"server"}}

@@ -1,0 +1,62 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+#include "core/errors.hpp"
+#include "core/version.hpp"
+#include "report/summary.hpp"
+#include "service/study_reader.hpp"
+#include "service/study_service.hpp"
+#include "study/plan.hpp"
+#include "view/comparison_view.hpp"
+#include "view/study_view.hpp"
+#include "view/success_map.hpp"
+#include "view/trial_view.hpp"
+
+namespace steerstat {
+
+StudyViews::Text StudyReader::study_view(const StudyEntry& entry) {
+  const StudyState state = catalogue_.state(entry);
+  return views_.view(entry.id, state.revision, state.status == StudyStatus::running, [&] {
+    const std::shared_ptr<const KeptStudy> kept = everything(entry);
+    const auto parameters = drawn_parameters(Plan(*entry.study), kept->result.trials);
+    const Summary summary = summarise(*entry.study, kept->result);
+    return study_view_json(steerstat::study_view({*entry.study, kept->result, parameters}, summary, {state.created}));
+  });
+}
+
+std::string StudyReader::success_map(const StudyEntry& entry, std::string_view x, std::string_view y) {
+  const std::lock_guard lock(comparing_);
+  const std::shared_ptr<const KeptStudy> kept = everything(entry);
+  const auto parameters = drawn_parameters(Plan(*entry.study), kept->result.trials);
+  return success_map_json(steerstat::success_map({*entry.study, kept->result, parameters}, x, y));
+}
+
+std::string StudyReader::trial_view(const StudyEntry& entry, std::uint64_t index) {
+  const TrialPage page = trial(entry, index);
+  const TrialRow& row = page.rows.front();
+  const TrialParameters parameters = Plan(*entry.study).parameters_with(index, row.values);
+  const Trajectory trajectory = replay_for_view(parameters, entry.study->integrator);
+  if (!bears_out(trajectory.outcome, row.outcome)) {
+    throw RunFailure(
+        fmt::format("trial {} of study {} cannot be shown: its replay ends {} at {} s, and it is kept as {} "
+                    "at {} s (it was computed by engine {}, this is {}); look at it with the build that "
+                    "computed it",
+                    index, entry.id, name_of(trajectory.outcome.status), trajectory.outcome.end_time,
+                    name_of(row.outcome.status), row.outcome.end_time, entry.origin.engine_version, engine_version()));
+  }
+  return trial_view_json(steerstat::trial_view(*entry.study, index, parameters, trajectory));
+}
+
+std::string StudyReader::comparison_view(const StudyEntry& a, const StudyEntry& b) {
+  const std::lock_guard lock(comparing_);
+  const std::array<std::shared_ptr<const KeptStudy>, 2> kept{everything(a), everything(b)};
+  const auto parameters_a = drawn_parameters(Plan(*a.study), kept[0]->result.trials);
+  const auto parameters_b = drawn_parameters(Plan(*b.study), kept[1]->result.trials);
+  return comparison_view_json(
+      steerstat::comparison_view({*a.study, kept[0]->result, parameters_a, kept[0]->engine_version},
+                                 {*b.study, kept[1]->result, parameters_b, kept[1]->engine_version}));
+}
+
+}  // namespace steerstat
