@@ -14,6 +14,7 @@
 #include "hardening/token.hpp"
 #include "interruption.hpp"
 #include "output.hpp"
+#include "page/embedded_page.hpp"
 #include "service/study_service.hpp"
 
 namespace steerstat {
@@ -79,12 +80,22 @@ void wait_for(const Interruption& interruption) {
   never.wait(lock, interruption.token(), [] { return false; });
 }
 
+/// The page, in the files that its HTML refers to; none in a program without it.
+std::vector<Asset> page_assets() {
+  const PageFiles page = embedded_page();
+  if (!page.absence.empty()) return {};
+  return {{"/", "text/html; charset=utf-8", page.html},
+          {"/page.css", "text/css; charset=utf-8", page.style},
+          {"/page.js", "text/javascript; charset=utf-8", page.script}};
+}
+
 ExitCode run(const Request& request) {
   HttpServer server(door_options(request));  // first: a port in use is told before any study goes on
   const Interruption interruption;
   const auto tell_line = [](const std::string& line) { tell(line); };
   StudyService service(request.data, request.threads, {}, tell_line);
   ApiOptions options;
+  options.assets = page_assets();
   options.door = [&server] { return server.counters(); };
   Api api(service, std::move(options));
   {

@@ -75,6 +75,7 @@ class Api::Implementation {
     add_trial_routes(router_, surroundings_);
     add_result_route(router_, surroundings_);
     add_event_route(router_, surroundings_);
+    add_view_routes(router_, surroundings_);
     add_comparison_route(router_, surroundings_);
     add_model_routes(router_, surroundings_);
     add_document_routes(router_, surroundings_);

@@ -28,14 +28,14 @@ std::pair<std::string, std::string> ids_of(const StudyService& service, const st
     throw BadSpec(std::vector<SpecError>{{"", R"(the document is no object; send {"a": ID, "b": ID})"}});
   }
   const auto id = [&](const std::string& key) -> std::string {
+    const std::string place = fmt::format("/{}", key);
     const auto found = document.find(key);
     if (found == document.end() || !found->is_string()) {
-      errors.push_back({found == document.end() ? "" : fmt::format("/{}", key),
-                        key + " is not the id of a study; give both a and b"});
+      errors.push_back({found == document.end() ? "" : place, key + " is not the id of a study; give both a and b"});
       return "";
     }
     const std::string value = found->get<std::string>();
-    if (!service.state(value)) errors.push_back({fmt::format("/{}", key), "there is no study " + quote(value)});
+    if (!service.state(value)) errors.push_back({place, "there is no study " + quote(value)});
     return value;
   };
   std::pair<std::string, std::string> ids{id("a"), id("b")};
@@ -53,8 +53,14 @@ void add_comparison_route(Router& router, Surroundings& surroundings) {
   router.add("POST", "/v1/comparisons", [&surroundings](const Call& call, httplib::Response& response) {
     expect_parameters(call.request, {});
     const auto [a, b] = ids_of(surroundings.service, json_body(call.request));
-    const auto place = take_place(surroundings.computations, "trajectories and comparisons");
+    const auto place = take_place(surroundings.computations, computation);
     reply_json(response, comparison_json(surroundings.service.compare(a, b)));
+  });
+  router.add("POST", "/v1/comparisons/view", [&surroundings](const Call& call, httplib::Response& response) {
+    expect_parameters(call.request, {});
+    const auto [a, b] = ids_of(surroundings.service, json_body(call.request));
+    const auto place = take_place(surroundings.computations, computation);
+    reply_json(response, surroundings.service.comparison_view(a, b));
   });
 }
 

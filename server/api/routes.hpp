@@ -30,6 +30,12 @@ std::shared_ptr<void> take_place(Share& share, const std::string& kind);
 /// The id of a path. @throws Refused 404 where it cannot be one
 const std::string& id_of(const Call& call);
 
+/// What take_place() calls a computation.
+inline constexpr const char* computation = "views, trajectories and comparisons";
+
+/// The trial's index of a path, its second value. @throws Refused 404 where it cannot be one
+std::uint64_t trial_of(const Call& call);
+
 /// The state of a study. @throws NoSuchStudy
 StudyState state_of(const StudyService& service, const std::string& id);
 
@@ -38,6 +44,7 @@ void add_study_routes(Router& router, Surroundings& surroundings);
 void add_trial_routes(Router& router, Surroundings& surroundings);
 void add_result_route(Router& router, Surroundings& surroundings);
 void add_event_route(Router& router, Surroundings& surroundings);
+void add_view_routes(Router& router, Surroundings& surroundings);
 void add_comparison_route(Router& router, Surroundings& surroundings);
 void add_model_routes(Router& router, Surroundings& surroundings);
 void add_document_routes(Router& router, Surroundings& surroundings);

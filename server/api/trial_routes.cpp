@@ -33,13 +33,6 @@ TrialFilter filter_of(const httplib::Request& request) {
   return filter;
 }
 
-std::uint64_t index_of(const Call& call) {
-  const std::optional<std::uint64_t> index = natural_number(call.values.at(1));
-  if (!index)
-    throw Refused({404, fmt::format("there is no trial {} (they are numbered from 0)", quote(call.values[1])), {}, {}});
-  return *index;
-}
-
 void list(const StudyService& service, const Call& call, httplib::Response& response) {
   expect_parameters(call.request, {"limit", "cursor", "status", "cell"});
   const std::string& id = id_of(call);
@@ -59,7 +52,7 @@ std::string tag_of_trial(const std::string& id, std::uint64_t index) {
 void show(const StudyService& service, const Call& call, httplib::Response& response) {
   expect_parameters(call.request, {});
   const std::string& id = id_of(call);
-  const std::uint64_t index = index_of(call);
+  const std::uint64_t index = trial_of(call);
   const TrialPage page = service.trial(id, index);
   if (has_already(call.request, response, tag_of_trial(id, index))) return;
   reply_json(response, trial_json(page), tag_of_trial(id, index));
@@ -69,8 +62,8 @@ void replay(Surroundings& surroundings, const Call& call, httplib::Response& res
   expect_parameters(call.request, {});
   const StudyService& service = surroundings.service;
   const std::string& id = id_of(call);
-  const std::uint64_t index = index_of(call);
-  const auto place = take_place(surroundings.computations, "trajectories and comparisons");
+  const std::uint64_t index = trial_of(call);
+  const auto place = take_place(surroundings.computations, computation);
   const std::string tag = tag_of_trial(id, index);
   // Whether it is there, before the client is told that it has it.
   if (!service.trial(id, index).rows.empty() && has_already(call.request, response, tag)) return;
@@ -79,6 +72,13 @@ void replay(Surroundings& surroundings, const Call& call, httplib::Response& res
 }
 
 }  // namespace
+
+std::uint64_t trial_of(const Call& call) {
+  const std::optional<std::uint64_t> index = natural_number(call.values.at(1));
+  if (!index)
+    throw Refused({404, fmt::format("there is no trial {} (they are numbered from 0)", quote(call.values[1])), {}, {}});
+  return *index;
+}
 
 void add_trial_routes(Router& router, Surroundings& surroundings) {
   const StudyService& service = surroundings.service;

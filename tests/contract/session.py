@@ -48,6 +48,8 @@ def main(program, output):
             ask("GET", path)
         for path in ("", "/summary", "/spec", "/trials", "/trials?status=converged&limit=3", "/trials?cell=1", "/trials?cell=x",
                      "/trials/0", "/trials/119", "/trials/120", "/trials/0/trajectory", "/trials/120/trajectory",
+                     "/view", "/view/map?x=plant.m1&y=plant.f2", "/view/map?x=plant.m1&y=plant.m2", "/view/map?x=plant.m1",
+                     "/trials/3/view", "/trials/120/view",
                      "/results.h5", "/events"):
             tag = ask("GET", study + path)[1]["ETag"]
             if tag:
@@ -55,14 +57,17 @@ def main(program, output):
         ask("GET", study + "/results.h5", headers={"Range": "bytes=0-7"})
         ask("GET", study + "/results.h5", headers={"Range": "bytes=999999999-"})
         ask("GET", study, headers={"Host": "evil.example"})
-        for path in ("", "/summary", "/spec", "/trials", "/trials/2999999", "/results.h5"):
+        for path in ("", "/summary", "/spec", "/trials", "/trials/2999999", "/results.h5", "/view"):
             ask("GET", long + path)
-        for path in ("", "/summary", "/spec", "/trials", "/trials/0", "/trials/0/trajectory", "/results.h5", "/events"):
+        for path in ("", "/summary", "/spec", "/trials", "/trials/0", "/trials/0/trajectory", "/results.h5", "/events",
+                     "/view", "/view/map?x=plant.m1&y=plant.f2", "/trials/0/view"):
             ask("GET", "/v1/studies/none" + path)
         ids = {"a": study.rpartition("/")[2], "b": study.rpartition("/")[2]}
         for body in (ids, {**ids, "b": long.rpartition("/")[2]}, {**ids, "b": "none"}, b"[", {}):
             ask("POST", "/v1/comparisons", body)
+            ask("POST", "/v1/comparisons/view", body)
         ask("POST", "/v1/comparisons", b"{}", {"Content-Type": "text/plain"})
+        ask("POST", "/v1/comparisons/view", b"{}", {"Content-Type": "text/plain"})
         ask("DELETE", long)
         service.wait_for_end(long)
         for path in ("", "/summary", "/trials"):
