@@ -19,6 +19,7 @@ struct Surroundings {
   Share downloads{options.downloads};
   Share computations{options.computations};
   Share evaluations{options.evaluations};
+  Share summaries{options.summaries};
   Models models{service};
   RequestMetrics metrics{};
   std::stop_source stop{};

@@ -52,9 +52,12 @@ void show_state(const StudyService& service, const Call& call, httplib::Response
   reply_json(response, state_json(state) + "\n", tag_of(state.revision));
 }
 
-void show_summary(const StudyService& service, const Call& call, httplib::Response& response) {
+void show_summary(Surroundings& surroundings, const Call& call, httplib::Response& response) {
   expect_parameters(call.request, {});
-  const SummaryText summary = service.summary(id_of(call));
+  const std::string& id = id_of(call);
+  const bool over = is_over(state_of(surroundings.service, id).status);
+  const auto place = over ? nullptr : take_place(surroundings.summaries, "summaries of studies under way");
+  const SummaryText summary = surroundings.service.summary(id);
   if (has_already(call.request, response, tag_of(summary.revision))) return;
   reply_json(response, summary.json, tag_of(summary.revision));
 }
@@ -88,7 +91,7 @@ void add_study_routes(Router& router, Surroundings& surroundings) {
   router.add("DELETE", "/v1/studies/{id}",
              [&](const Call& call, auto& response) { cancel_or_remove(service, call, response); });
   router.add("GET", "/v1/studies/{id}/summary",
-             [&](const Call& call, auto& response) { show_summary(service, call, response); });
+             [&](const Call& call, auto& response) { show_summary(surroundings, call, response); });
   router.add("GET", "/v1/studies/{id}/spec",
              [&](const Call& call, auto& response) { show_spec(service, call, response); });
 }

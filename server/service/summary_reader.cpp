@@ -52,7 +52,15 @@ SummaryText StudyReader::summary(const StudyEntry& entry) {
     return cached(cache, state);
   };
   if (auto found = find()) return *std::move(found);
-  const std::lock_guard computing(cache.computing);
+  std::unique_lock computing(cache.computing, std::try_to_lock);
+  if (!computing) {
+    // Another caller makes it anew: all but the first are content with the one before, if there is one.
+    if (state.status == StudyStatus::running) {
+      const std::lock_guard lock(cache.mutex);
+      if (!cache.json.empty() && cache.was_running) return {cache.json, false, cache.revision};
+    }
+    computing.lock();
+  }
   if (auto found = find()) return *std::move(found);  // made while this one waited
   const Clock::time_point start = Clock::now();
   std::string json = summary_json(summarise(*entry.study, everything(entry)->result));
