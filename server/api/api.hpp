@@ -23,9 +23,9 @@ struct ApiOptions {
   /// Requests of a kind that may be answered at once, so that others find a worker free: 503 beyond.
   std::size_t event_streams{16};
   std::size_t downloads{8};
-  std::size_t computations{8};           ///< of trajectories and comparisons
+  std::size_t computations{12};          ///< of trajectories, comparisons and views
   std::size_t evaluations{8};            ///< of UM-Bridge models, each of which may wait for a study
-  std::size_t summaries{20};             ///< of studies under way, each of which may wait for one that is being made
+  std::size_t summaries{16};             ///< of studies under way, each of which may wait for one that is being made
   std::function<DoorCounters()> door{};  ///< for /metrics to tell of; may be empty
 };
 
