@@ -81,6 +81,7 @@ describe("The page", { concurrency: false }, () => {
   });
 
   it("runs a study from the form and follows it to its end without anything jumping", async () => {
+    await show("#/new");
     await page.locator('[data-pointer="/name"] input').fill("watched");
     await page.getByLabel("Trials", { exact: true }).fill("300000");
     await page.getByRole("button", { name: "Run the study" }).click();
@@ -92,7 +93,7 @@ describe("The page", { concurrency: false }, () => {
     for (const until = Date.now() + 240_000; Date.now() < until && (await chip(page, "done").count()) === 0; ) {
       const share = await bar.getAttribute("aria-valuenow", { timeout: 200 }).catch(() => null);
       if (share !== null) seen.add(Number(share));
-      if (shifts === null && (await page.locator(".overview .big").count()) > 0) shifts = await watchShifts(page);
+      if (shifts === null && (await page.locator(".headline .big").count()) > 0) shifts = await watchShifts(page);
       await page.waitForTimeout(40);
     }
     await chip(page, "done").waitFor();
@@ -105,15 +106,17 @@ describe("The page", { concurrency: false }, () => {
   });
 
   it("tells what the summary tells", async () => {
+    await show(`#/studies/${ids.watched}`);
     const summary = await service.get(`v1/studies/${ids.watched}/summary`);
     assert.equal(summary.trials.completed, 300000);
-    const share = Number((await page.locator(".overview .big").innerText()).replace(" %", ""));
+    const share = Number((await page.locator(".headline .big").innerText()).replace(" %", ""));
     assert.ok(Math.abs(share - 100 * summary.success_rate.estimate) < 0.051);
     const converged = await page.locator(".outcomes tr", { hasText: "converged" }).locator("td").first().innerText();
     assert.equal(Number(converged.replace(/,/g, "")), summary.outcomes.converged);
   });
 
   it("maps the rates of very many trials, and lists the trials of a bin", async () => {
+    await show(`#/studies/${ids.watched}`);
     await page.getByRole("link", { name: "Why it fails" }).click();
     await page.getByText("All 300,000 trials", { exact: false }).waitFor();
     const over = page.locator(".map-card .u-over");
@@ -226,10 +229,10 @@ describe("The page", { concurrency: false }, () => {
     const response = await fetch(`${service.url}v1/studies`, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify({ ...combined, name: "long", sampling: { ...combined.sampling, trials: 20_000_000 } }) });
     const { id } = await response.json();
     await show(`#/studies/${id}`);
-    await page.locator(".overview .big").waitFor();
+    await page.locator(".headline .big").waitFor();
     await service.kill();
     await page.getByText("No connection to the service").first().waitFor();
-    assert.equal(await page.locator(".overview .big").count(), 1, "what was last seen stays in sight");
+    assert.equal(await page.locator(".headline .big").count(), 1, "what was last seen stays in sight");
     const completed = () => page.locator(".head-progress [role=progressbar]").getAttribute("aria-valuenow").then(Number);
     const before = await completed();
     await service.start();
@@ -294,7 +297,7 @@ describe("The page", { concurrency: false }, () => {
     const requests = [];
     report.page.on("request", (request) => requests.push(request.url()));
     await report.page.goto(pathToFileURL(html).href);
-    await report.page.locator(".overview .big").waitFor();
+    await report.page.locator(".headline .big").waitFor();
     await report.page.getByRole("link", { name: "Trials", exact: true }).click();
     await report.page.getByLabel("Show").selectOption("failed");
     await report.page.locator(".trial-table tbody a").first().click();
