@@ -1,6 +1,7 @@
 // What every view stands on: the source, and whether it answers.
 import { createContext } from "preact";
 import { useContext, useEffect, useState } from "preact/hooks";
+import { pause } from "./events";
 import { Problem } from "./problem";
 import type { Source } from "./source";
 
@@ -87,22 +88,27 @@ export function useDocument<Document>(
   const epoch = connection.epoch;
   useEffect(() => {
     const abort = new AbortController();
-    load(abort.signal).then(
-      (value) => {
+    const fetchIt = async (): Promise<void> => {
+      try {
+        const value = await load(abort.signal);
         if (abort.signal.aborted) return;
         connection.note(null);
         setLoaded({ key, result: { state: "ready", value, problem: null } });
-      },
-      (error: unknown) => {
+      } catch (error) {
         if (abort.signal.aborted) return;
         const problem = toProblem(error);
         connection.note(problem);
+        if (problem.isBusy) {
+          await pause(1000 * Math.min(10, problem.retryAfter ?? 2), abort.signal);
+          return abort.signal.aborted ? undefined : fetchIt();
+        }
         setLoaded((before) => {
           const value = before.key === key ? before.result.value : null;
           return { key, result: { state: "failed", value, problem } };
         });
-      },
-    );
+      }
+    };
+    void fetchIt();
     return () => abort.abort();
   }, [key, revision, epoch]);
   return loaded.key === key ? loaded.result : loading;

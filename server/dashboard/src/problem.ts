@@ -19,6 +19,11 @@ export class Problem extends Error {
     super(detail ? `${title}: ${detail}` : title);
   }
 
+  /** Whether the service has too much to do just now, and wants to be asked again. */
+  get isBusy(): boolean {
+    return this.status === 503 || this.status === 429;
+  }
+
   /** Whether there was no service to answer. */
   get isLost(): boolean {
     return this.status === 0;
