@@ -1,6 +1,6 @@
 // What every view stands on: the source, and whether it answers.
 import { createContext } from "preact";
-import { useContext, useEffect, useState } from "preact/hooks";
+import { useContext, useEffect, useRef, useState } from "preact/hooks";
 import { pause } from "./events";
 import { Problem } from "./problem";
 import type { Source } from "./source";
@@ -86,9 +86,12 @@ export function useDocument<Document>(
   const connection = useConnection();
   const [loaded, setLoaded] = useState<{ key: string; result: Loaded<Document> }>({ key, result: loading });
   const epoch = connection.epoch;
+  const wanted = useRef(revision);
+  wanted.current = revision;
+  const again = useRef<(() => void) | null>(null);
   useEffect(() => {
     const abort = new AbortController();
-    const fetchIt = async (): Promise<void> => {
+    const fetchOnce = async (): Promise<void> => {
       try {
         const value = await load(abort.signal);
         if (abort.signal.aborted) return;
@@ -100,7 +103,7 @@ export function useDocument<Document>(
         connection.note(problem);
         if (problem.isBusy) {
           await pause(1000 * Math.min(10, problem.retryAfter ?? 2), abort.signal);
-          return abort.signal.aborted ? undefined : fetchIt();
+          return abort.signal.aborted ? undefined : fetchOnce();
         }
         setLoaded((before) => {
           const value = before.key === key ? before.result.value : null;
@@ -108,9 +111,26 @@ export function useDocument<Document>(
         });
       }
     };
-    void fetchIt();
-    return () => abort.abort();
-  }, [key, revision, epoch]);
+    // A new revision never breaks off a load, or one that takes longer than revisions last would never be seen.
+    let isLoading = false;
+    const keepUp = async (): Promise<void> => {
+      if (isLoading) return;
+      isLoading = true;
+      let seen: string | number | null = null;
+      while (seen !== wanted.current && !abort.signal.aborted) {
+        seen = wanted.current;
+        await fetchOnce();
+      }
+      isLoading = false;
+    };
+    again.current = () => void keepUp();
+    again.current();
+    return () => {
+      again.current = null;
+      abort.abort();
+    };
+  }, [key, epoch]);
+  useEffect(() => again.current?.(), [revision]);
   return loaded.key === key ? loaded.result : loading;
 }
 
