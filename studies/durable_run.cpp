@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/errors.hpp"
 #include "core/version.hpp"
+#include "distributed/lead.hpp"
 #include "output.hpp"
 #include "report/readable.hpp"
 #include "study/continuation.hpp"
@@ -30,33 +32,15 @@ fs::path parts_of(const fs::path& result) {
   return (fs::exists(result) ? fs::canonical(result) : result).string() + ".parts";
 }
 
-/// Why `stored`, found at `place`, cannot be continued as `study`; "" where it can.
-std::string objection(const StoredStudy& stored, const Study& study, const fs::path& place) {
-  if (stored.engine_version != engine_version()) {
-    return fmt::format("{} is of engine version {} and this is {}, whose trials may differ in their bits",
-                       place.string(), stored.engine_version, engine_version());
-  }
-  if (!stored.has_metrics) return fmt::format("{} is of a program that measured no metrics", place.string());
-  if (continues(study, stored.study)) return "";
-  if (continues(stored.study, study)) {
-    return fmt::format("{} is of {} trials and the spec asks for {} (a study can be extended, not cut)", place.string(),
-                       readable_count(Plan(stored.study).trials()), readable_count(Plan(study).trials()));
-  }
-  return fmt::format("{} is of another study, {} with id {} (the spec given is {} with id {})", place.string(),
-                     printable(stored.study.name), study_id(stored.study), printable(study.name), study_id(study));
+/// "the whole study" or "shard 3/10 of it".
+std::string part_text(const std::optional<Share>& share) {
+  return share ? fmt::format("shard {} of it", share_text(*share)) : "the whole study";
 }
 
-void require_continuation(const StoredStudy& stored, const Study& study, const fs::path& place) {
-  const std::string problem = objection(stored, study, place);
-  if (problem.empty()) return;
-  throw BadUsage(
-      fmt::format("--resume: {}; name another output with -o, or delete {} to begin anew", problem, place.string()));
-}
-
-bool has_nothing_left(const StoredStudy& stored, const Study& study) {
-  const std::uint64_t to_audit = std::min<std::uint64_t>(study.audited_trials, stored.result.trials.index.size());
-  return stored.result.complete && stored.result.audit.trials.size() == to_audit &&
-         spec_sha256(stored.study) == spec_sha256(study);
+void tell_of(const std::vector<SetAside>& set_aside) {
+  for (const SetAside& aside : set_aside) {
+    tell(fmt::format("{}; renamed it to {}, its trials run again", aside.reason, aside.file.string()));
+  }
 }
 
 /// Runs `action`; where it fails, the message goes on to say that nothing is lost.
@@ -73,7 +57,12 @@ auto saying_what_is_kept(const std::optional<StudyDirectory>& directory, const A
 
 }  // namespace
 
-DurableRun::DurableRun(const fs::path& result, const Study& study, bool resume) : path_(result), study_(study) {
+DurableRun::DurableRun(const fs::path& result, const Study& study, std::optional<Share> share, bool resume)
+    : path_(result), study_(study), share_(share), due_(Plan(study).trials()) {
+  if (share_) {
+    const TrialRange range = trials_of(study, *share_);
+    due_ = range.end - range.begin;
+  }
   if (is_stream(result)) {
     if (resume) throw BadUsage(fmt::format("--resume: {} is not a file; name one with -o", result.string()));
     return;
@@ -94,14 +83,14 @@ void DurableRun::begin_anew() {
                     "delete the directory to begin anew",
                     parts_.string()));
   }
-  directory_->begin(study_);
+  directory_->begin(study_, share_);
 }
 
 void DurableRun::resume() {
   const bool interrupted = fs::exists(parts_);
   std::optional<StoredStudy> earlier = earlier_result(interrupted);
   directory_.emplace(parts_);
-  if (earlier && has_nothing_left(*earlier, study_)) {
+  if (earlier && has_nothing_left(*earlier)) {
     tell(fmt::format("{} is complete; nothing is left to run", path_.string()));
     directory_->remove();
     whole_ = std::move(earlier->result);
@@ -111,7 +100,46 @@ void DurableRun::resume() {
   if (earlier) finished_ = {std::move(earlier->result.trials), earlier->result.wall_s};
   finished_ = joined(std::move(finished_), std::move(of_parts));
   tell(fmt::format("resuming after {} of {} trials", readable_count(finished_.trials.index.size()),
-                   readable_count(Plan(study_).trials())));
+                   readable_count(due_)));
+}
+
+/// Why `stored`, found at `place`, cannot be continued; "" where it can.
+std::string DurableRun::objection(const StoredStudy& stored, const fs::path& place) const {
+  if (stored.engine_version != engine_version()) {
+    return fmt::format("{} is of engine version {} and this is {}, whose trials may differ in their bits",
+                       place.string(), stored.engine_version, engine_version());
+  }
+  if (!stored.has_metrics) return fmt::format("{} is of a program that measured no metrics", place.string());
+  if (continues(study_, stored.study)) {
+    if (stored.result.share != share_) {
+      return fmt::format("{} is of {} and this run is of {}", place.string(), part_text(stored.result.share),
+                         part_text(share_));
+    }
+    if (!share_ || Plan(stored.study).trials() == Plan(study_).trials()) return "";
+    return fmt::format("{} is a shard of {} trials and the spec asks for {} (more trials divide anew)", place.string(),
+                       readable_count(Plan(stored.study).trials()), readable_count(Plan(study_).trials()));
+  }
+  if (continues(stored.study, study_)) {
+    return fmt::format("{} is of {} trials and the spec asks for {} (a study can be extended, not cut)", place.string(),
+                       readable_count(Plan(stored.study).trials()), readable_count(Plan(study_).trials()));
+  }
+  return fmt::format("{} is of another study, {} with id {} (the spec given is {} with id {})", place.string(),
+                     printable(stored.study.name), study_id(stored.study), printable(study_.name), study_id(study_));
+}
+
+void DurableRun::require_continuation(const StoredStudy& stored, const fs::path& place) const {
+  const std::string problem = objection(stored, place);
+  if (problem.empty()) return;
+  throw BadUsage(
+      fmt::format("--resume: {}; name another output with -o, or delete {} to begin anew", problem, place.string()));
+}
+
+/// @param stored  to be continued
+bool DurableRun::has_nothing_left(const StoredStudy& stored) const {
+  const std::uint64_t there = stored.result.trials.index.size();
+  if (share_) return there == due_;
+  return stored.result.complete && stored.result.audit.trials.size() == std::min(study_.audited_trials, there) &&
+         spec_sha256(stored.study) == spec_sha256(study_);
 }
 
 /// What stands at the result's place, if it is of this study.
@@ -120,8 +148,8 @@ std::optional<StoredStudy> DurableRun::earlier_result(bool interrupted) const {
   if (!fs::exists(path_)) return std::nullopt;
   try {
     StoredStudy stored = read_result(path_);
-    if (!interrupted) require_continuation(stored, study_, path_);
-    if (objection(stored, study_, path_).empty()) return stored;
+    if (!interrupted) require_continuation(stored, path_);
+    if (objection(stored, path_).empty()) return stored;
   } catch (const RunFailure& failure) {
     if (!interrupted) throw;
   }
@@ -137,21 +165,36 @@ FinishedTrials DurableRun::recover() {
     const SetAside aside = directory_->set_study_aside(failure.what());
     tell(fmt::format("{}; renamed it to {}", aside.reason, aside.file.string()));
   }
-  if (begun) require_continuation(*begun, study_, parts_);
-  directory_->begin(study_);
+  if (begun) require_continuation(*begun, parts_);
+  directory_->begin(study_, share_);
   Recovery recovery = directory_->recover();
-  for (const SetAside& aside : recovery.set_aside) {
-    tell(fmt::format("{}; renamed it to {}, its trials run again", aside.reason, aside.file.string()));
-  }
+  tell_of(recovery.set_aside);
   return std::move(recovery.finished);
 }
 
-StudyResult DurableRun::run(RunOptions options) {
+StudyResult DurableRun::run(RunOptions options, Ranks* ranks, bool gather) {
   if (whole_) return *whole_;
-  if (!directory_) return run_study(study_, options);
+  if (ranks != nullptr) {
+    return saying_what_is_kept(directory_, [&] { return run_together(options, *ranks, gather); });
+  }
+  if (!directory_) return run_now(options);
   ShardSink sink(*directory_);
   options.sink = &sink;
-  return saying_what_is_kept(directory_, [&] { return run_study(study_, options, std::move(finished_)); });
+  return saying_what_is_kept(directory_, [&] { return run_now(options); });
+}
+
+StudyResult DurableRun::run_now(const RunOptions& options) {
+  if (!share_) return run_study(study_, options, std::move(finished_));
+  StudyResult result = run_range(study_, trials_of(study_, *share_), options, std::move(finished_));
+  result.share = share_;
+  return result;
+}
+
+StudyResult DurableRun::run_together(const RunOptions& options, Ranks& ranks, bool gather) {
+  StudyDirectory* const directory = directory_ ? &*directory_ : nullptr;
+  RankedRun ranked = run_on_ranks(ranks, study_, options, std::move(finished_), directory, gather);
+  tell_of(ranked.set_aside);
+  return completed(study_, options, std::move(ranked));
 }
 
 void DurableRun::keep(const StudyResult& result) {

@@ -2,7 +2,9 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
+#include "distributed/ranks.hpp"
 #include "store/study_directory.hpp"
 #include "study/run.hpp"
 #include "study/study.hpp"
@@ -15,13 +17,17 @@ class DurableRun {
  public:
   /// Takes the directory, and reads what an earlier run has left where it is to be resumed. Tells the user of it.
   ///
+  /// @param share   where only that share of the study is to run
   /// @param resume  whether to go on with an interrupted run, its directory or its incomplete result; begins anew where
   ///                there is neither
   /// @throws BadUsage where there is another study's, or finished trials that nobody asked to resume; RunFailure
-  DurableRun(const std::filesystem::path& result, const Study& study, bool resume);
+  DurableRun(const std::filesystem::path& result, const Study& study, std::optional<Share> share, bool resume);
 
-  /// Runs what is not finished yet. @throws as run_study() does; a RunFailure says what is kept
-  StudyResult run(RunOptions options);
+  /// Runs what is not finished yet. @throws as run_study() and run_range() do; a RunFailure says what is kept
+  ///
+  /// @param ranks   those that run it together, this one leading; null: this process alone
+  /// @param gather  see run_on_ranks()
+  StudyResult run(RunOptions options, Ranks* ranks = nullptr, bool gather = false);
 
   /// Writes the result, then removes the directory. @throws RunFailure saying what is kept
   void keep(const StudyResult& result);
@@ -31,10 +37,17 @@ class DurableRun {
   void resume();
   std::optional<StoredStudy> earlier_result(bool interrupted) const;
   FinishedTrials recover();
+  void require_continuation(const StoredStudy& stored, const std::filesystem::path& place) const;
+  [[nodiscard]] std::string objection(const StoredStudy& stored, const std::filesystem::path& place) const;
+  [[nodiscard]] bool has_nothing_left(const StoredStudy& stored) const;
+  [[nodiscard]] StudyResult run_now(const RunOptions& options);
+  [[nodiscard]] StudyResult run_together(const RunOptions& options, Ranks& ranks, bool gather);
 
   std::filesystem::path path_;
   std::filesystem::path parts_;
   const Study& study_;
+  std::optional<Share> share_;  // of the study
+  std::uint64_t due_;           // trials to run in all
   std::optional<StudyDirectory> directory_;
   FinishedTrials finished_;           // by earlier runs
   std::optional<StudyResult> whole_;  // where there is nothing left to run

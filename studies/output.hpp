@@ -13,6 +13,9 @@ enum class StandardStream : int { output = 1, error = 2 };
 /// opened later is mistaken for it, and a reader that goes away is an error to report, not a signal to die of.
 void secure_standard_streams();
 
+/// Lets nothing that is written to the standard streams arrive anywhere.
+void mute_standard_streams();
+
 /// Whoever read standard output stopped reading, as `head` does.
 class ReaderGone : public RunFailure {
  public:

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <exception>
 #include <new>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "commands.hpp"
 #include "core/errors.hpp"
 #include "core/version.hpp"
+#include "distributed/ranks.hpp"
 #include "output.hpp"
 #include "simd_choice.hpp"
 #include "study/nearest.hpp"
@@ -28,6 +30,7 @@ constexpr const char* epilogue = R"(Examples:
   steerstat replay result.h5 --trial 3 -o 3.csv  the trajectory of one trial
   steerstat export result.h5 -o trials.csv       every trial as a row
   steerstat compare a.h5 b.h5                    two studies on the same draws, trial by trial
+  steerstat merge shard-*.h5 -o result.h5        one study that ran as several shards
   steerstat report result.h5 -o result.html      one page of figures, to look at and to send
   steerstat serve                                the same behind an HTTP API
 
@@ -80,6 +83,12 @@ ExitCode end_of_parsing(const CLI::App& program, const CLI::ParseError& end, std
   return ExitCode::bad_request;
 }
 
+/// Whether another process of this run says all that there is to say.
+bool is_follower(int argc, const char* const* argv) {
+  if (rank_in_environment().value_or(0) == 0 || argc < 2 || std::string_view(argv[1]) != "run") return false;
+  return std::none_of(argv + 2, argv + argc, [](std::string_view word) { return word.starts_with("--shard"); });
+}
+
 ExitCode parse_and_run(int argc, const char* const* argv) {
   CLI::App program("Monte Carlo robustness and parameter studies of an underactuated robot's controller", "steerstat");
   ExitCode exit_code = ExitCode::done;
@@ -96,6 +105,7 @@ ExitCode parse_and_run(int argc, const char* const* argv) {
   add_replay(program, exit_code);
   add_export(program, exit_code);
   add_compare(program, exit_code);
+  add_merge(program, exit_code);
   add_report(program, exit_code);
   add_serve(program, exit_code);
   for (CLI::App* command : program.get_subcommands({})) command->group("Commands");
@@ -112,6 +122,7 @@ ExitCode parse_and_run(int argc, const char* const* argv) {
 ExitCode run_program(int argc, const char* const* argv) noexcept {
   try {
     secure_standard_streams();
+    if (is_follower(argc, argv)) mute_standard_streams();
     return parse_and_run(argc, argv);
   } catch (const BadUsage& bad) {
     tell(bad.what());

@@ -9,22 +9,21 @@
 #include <variant>
 #include <vector>
 
-#include "baseline_file.hpp"
 #include "commands.hpp"
 #include "core/errors.hpp"
+#include "distributed/job.hpp"
+#include "distributed/lead.hpp"
+#include "distributed/ranks.hpp"
 #include "durable_run.hpp"
 #include "interruption.hpp"
 #include "output.hpp"
 #include "progress_display.hpp"
-#include "report/baseline.hpp"
 #include "report/readable.hpp"
 #include "report/summary.hpp"
-#include "report/verdict.hpp"
-#include "report_files.hpp"
 #include "run_approximation.hpp"
 #include "simd_choice.hpp"
 #include "spec_file.hpp"
-#include "store/result_file.hpp"
+#include "study_report.hpp"
 
 namespace steerstat {
 namespace {
@@ -44,27 +43,32 @@ beside it, whatever happens to the process. --resume goes on from there, or from
 bits as a run that nothing interrupted; also with more "trials" in the spec than before. Where there is nothing to go on
 with, it begins at the beginning.
 
+--shard I/N runs the I-th of N parts of the study's trials, to be put together by steerstat merge; it is neither audited
+nor judged, and a "stop" in the spec is heeded by merge.
+
+Under mpirun, or srun --mpi=pmix, all ranks run the study together, each on --threads of its own, and rank 0 alone reads
+the spec, reports and writes the result (where the program was built with MPI).
+
 Examples:
   steerstat run study.json
   steerstat run study.json -o result.h5 --summary summary.json
   steerstat run study.json -o result.h5 --resume
   steerstat run study.json --junit gates.xml --baseline last_week.json
   steerstat run study.json --summary - --no-progress | jq .success_rate
+  steerstat run study.json -o shard-3.h5 --shard 3/10
+  mpirun -n 4 steerstat run study.json -o result.h5
   make-study | steerstat run - -o result.h5)";
 
 struct Request {
   std::string spec;
-  std::optional<std::string> result;   ///< without it the trials are not kept
-  std::optional<std::string> summary;  ///< "-": standard output, in the table's place
-  ReportFiles reports;
-  std::optional<std::string> baseline;  ///< "-": standard input
+  std::optional<std::string> result;  ///< without it the trials are not kept
+  StudyReport report;
   unsigned threads{0};
-  std::optional<std::string> simd;  ///< without it the best that this machine runs
+  std::optional<std::string> simd;   ///< without it the best that this machine runs
+  std::optional<std::string> shard;  ///< I/N; without it the whole study
   bool no_progress{false};
   bool resume{false};
-
-  [[nodiscard]] bool prints_json() const { return summary == "-"; }
-  [[nodiscard]] bool writes_summary() const { return summary && !prints_json(); }
+  bool gather{false};
 };
 
 void check_outputs(const Request& request) {
@@ -75,60 +79,41 @@ void check_outputs(const Request& request) {
   if (request.result == "-") {
     throw BadUsage("-o: a result file cannot go to standard output (HDF5 is not a stream); name a file");
   }
-  std::vector<NamedFile> outputs = request.reports.named();
-  if (request.writes_summary()) outputs.insert(outputs.begin(), {"--summary", *request.summary});
+  std::vector<NamedFile> outputs = request.report.outputs();
   if (request.result) outputs.insert(outputs.begin(), {"-o", *request.result});
   std::vector<NamedFile> inputs{{"the spec", request.spec}};
-  if (request.baseline) inputs.push_back({"the baseline", *request.baseline});
+  if (request.report.baseline) inputs.push_back({"the baseline", *request.report.baseline});
   check_outputs(outputs, inputs);
 }
 
+/// @throws BadUsage for what is no share, and for what only a whole study has
+std::optional<Share> share_of(const Request& request) {
+  if (!request.shard) return std::nullopt;
+  const std::optional<Share> share = parse_share(*request.shard);
+  if (!share) {
+    throw BadUsage(fmt::format("--shard: '{}' is no shard (I/N, with I from 1 to N, and N at most {}); try 1/4",
+                               printable(*request.shard), readable_count(most_shares)));
+  }
+  if (!request.result) throw BadUsage("--shard: without -o its trials are not kept to be merged; name a file");
+  if (request.report.baseline || !request.report.files.named().empty()) {
+    throw BadUsage("--baseline, --junit and --markdown are of a whole study, not of a shard; give them to merge");
+  }
+  return share;
+}
+
 /// @param durable  null where the trials are not kept
+/// @param ranks    null where this process is alone
 StudyResult run_trials(const Study& study, const Request& request, InstructionSet simd,
-                       const Interruption& interruption, DurableRun* durable) {
+                       const Interruption& interruption, DurableRun* durable, Ranks* ranks) {
   ProgressDisplay display(request.no_progress ? ProgressStyle::none : progress_style(), interruption.token());
   RunOptions options;
   options.threads = request.threads;
   options.simd = simd;
   options.stop = interruption.token();
   options.on_progress = [&display](const Progress& progress) { display.show(progress); };
-  return durable != nullptr ? durable->run(options) : run_study(study, options);
-}
-
-/// Writes what was asked for, the trials first: the most costly to lose. One full disk does not take the rest along.
-/// @return whether all of it was written
-bool write_outputs(const Request& request, const Summary& summary, const StudyResult& result, DurableRun* durable) {
-  const bool kept = durable == nullptr || attempt([&] { durable->keep(result); });
-  const bool summarised =
-      !request.writes_summary() || attempt([&] { write_text(*request.summary, summary_json(summary)); });
-  const bool printed = attempt([&] {
-    print(request.prints_json() ? summary_json(summary) : summary_text(summary, wants_colour(StandardStream::output)));
-  });
-  if (kept && request.result) tell(fmt::format("wrote the trials to {}", *request.result));
-  if (summarised && request.writes_summary()) tell(fmt::format("wrote the summary to {}", *request.summary));
-  const bool reported = request.reports.write(summary);
-  return kept && summarised && printed && reported;
-}
-
-std::optional<Baseline> read_baseline(const Request& request, const Study& study) {
-  if (!request.baseline) return std::nullopt;
-  if (request.baseline == "-" && request.spec == "-") {
-    throw BadUsage("the spec and --baseline cannot both come from standard input; name a file for one of them");
-  }
-  Baseline baseline = read_baseline_file(*request.baseline);
-  require_same_population(study, baseline);
-  return baseline;
-}
-
-ExitCode exit_code_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::pass:
-      return ExitCode::done;
-    case Verdict::fail:
-      return ExitCode::check_failed;
-    default:
-      return ExitCode::inconclusive;
-  }
+  if (durable != nullptr) return durable->run(options, ranks, request.gather);
+  if (ranks == nullptr) return run_study(study, options);
+  return completed(study, options, run_on_ranks(*ranks, study, options, {}, nullptr, true));
 }
 
 /// The kind of study that has no trials to keep.
@@ -136,43 +121,111 @@ ExitCode run_of_approximation(const ApproximationStudy& study, const Request& re
   if (request.result) {
     throw BadUsage("-o: an approximation study keeps no trials (its cycles are no trials); use --summary FILE");
   }
-  if (request.baseline || !request.reports.named().empty()) {
+  if (request.shard) throw BadUsage("--shard: an approximation study keeps no trials that could be merged");
+  if (request.report.baseline || !request.report.files.named().empty()) {
     throw BadUsage("--baseline, --junit and --markdown: an approximation study has no success rate and no gates");
   }
   check_outputs(request);
-  return run_approximation_study(study, request.summary);
+  return run_approximation_study(study, request.report.summary);
 }
 
-ExitCode run(const Request& request) {
+std::optional<Baseline> read_baseline(const Request& request, const Study& study) {
+  if (request.report.baseline == "-" && request.spec == "-") {
+    throw BadUsage("the spec and --baseline cannot both come from standard input; name a file for one of them");
+  }
+  return request.report.read_baseline(study);
+}
+
+/// Says that a run ended early, where it did. @return whether it did
+bool tell_of_interruption(const Study& study, const Request& request, const StudyResult& result) {
+  const std::uint64_t finished = result.trials.index.size();
+  const std::uint64_t audited = result.audit.trials.size();
+  if (result.share) {
+    const TrialRange range = trials_of(study, *result.share);
+    const std::uint64_t requested = range.end - range.begin;
+    if (finished == requested) return false;
+    tell(fmt::format("interrupted after {} of {} trials of the shard", readable_count(finished),
+                     readable_count(requested)));
+    return true;
+  }
+  if (!result.complete) {
+    tell(fmt::format("interrupted after {} of {} trials{}", readable_count(finished),
+                     readable_count(Plan(study).trials()), request.result ? "" : "; without -o they are not kept"));
+    return true;
+  }
+  const std::uint64_t to_audit = std::min<std::uint64_t>(study.audited_trials, finished);
+  if (audited == to_audit) return false;
+  tell(fmt::format("interrupted during the audit, after {} of {} trials; the study itself is complete",
+                   readable_count(audited), readable_count(to_audit)));
+  return true;
+}
+
+/// @param ranks  null where this process is alone
+ExitCode run(const Request& request, Ranks* ranks) {
   const InstructionSet simd = request.simd ? choose_simd(*request.simd) : best_instruction_set();
   const std::variant<Study, ApproximationStudy> spec = read_any_study(request.spec);
   if (const auto* approximation = std::get_if<ApproximationStudy>(&spec)) {
     return run_of_approximation(*approximation, request);
   }
   const Study& study = std::get<Study>(spec);
+  const std::optional<Share> share = share_of(request);
   const std::optional<Baseline> baseline = read_baseline(request, study);
   check_outputs(request);
   const Interruption interruption;  // to the end: an interrupt must not cost the outputs of a run that is over
   std::optional<DurableRun> durable;
-  if (request.result) durable.emplace(*request.result, study, request.resume);
-  DurableRun* const kept = durable ? &*durable : nullptr;
-  const StudyResult result = run_trials(study, request, simd, interruption, kept);
+  if (request.result) durable.emplace(*request.result, study, share, request.resume);
+  const StudyResult result = run_trials(study, request, simd, interruption, durable ? &*durable : nullptr, ranks);
   Summary summary = summarise(study, result);
   if (baseline) judge_against(*baseline, study.baseline_test, summary);
-  const bool written = write_outputs(request, summary, result, kept);
-  if (!result.complete) {
-    tell(fmt::format("interrupted after {} of {} trials{}", readable_count(result.trials.index.size()),
-                     readable_count(Plan(study).trials()), request.result ? "" : "; without -o they are not kept"));
+  // The trials first: the most costly to lose.
+  const bool kept = !durable || attempt([&] { durable->keep(result); });
+  const bool written = request.report.write(summary, kept ? request.result.value_or("") : "");
+  const bool interrupted = tell_of_interruption(study, request, result);
+  if (!kept || !written) return ExitCode::run_failed;
+  if (interrupted) return ExitCode::interrupted;
+  return share ? ExitCode::done : exit_code_of(summary);  // gates are for all trials
+}
+
+/// What a rank does that does not lead: works, and says nothing.
+ExitCode follow(Ranks& ranks, const Request& request) {
+  const Interruption interruption;
+  WorkOptions options;
+  options.threads = request.threads;
+  options.stop = interruption.token();
+  // A mistyped name is the leader's to tell; and a machine that cannot do what another can gives the same bits.
+  const auto asked = request.simd ? instruction_set_named(*request.simd) : std::nullopt;
+  if (asked && supports(*asked)) options.simd = *asked;
+  return static_cast<ExitCode>(work(ranks, options));
+}
+
+/// Leads, and lets the other ranks end as this one does, however it does.
+ExitCode lead(Ranks& ranks, const Request& request) {
+  const auto ended = [&ranks](ExitCode code) {
+    end_ranks(ranks, static_cast<int>(code));
+    return code;
+  };
+  try {
+    return ended(run(request, &ranks));
+  } catch (const BadUsage&) {
+    ended(ExitCode::bad_request);
+    throw;
+  } catch (const BadSpec&) {
+    ended(ExitCode::bad_request);
+    throw;
+  } catch (...) {
+    ended(ExitCode::run_failed);
+    throw;
   }
-  const std::uint64_t audited = result.audit.trials.size();
-  const std::uint64_t to_audit = std::min<std::uint64_t>(study.audited_trials, result.trials.index.size());
-  if (result.complete && audited < to_audit) {
-    tell(fmt::format("interrupted during the audit, after {} of {} trials; the study itself is complete",
-                     readable_count(audited), readable_count(to_audit)));
+}
+
+ExitCode run_alone_or_together(const Request& request) {
+  if (request.gather && !rank_in_environment()) {
+    throw BadUsage("--gather: this process is alone (it is for several, started by mpirun or srun); leave it out");
   }
-  if (!written) return ExitCode::run_failed;
-  if (!result.complete || audited < to_audit) return ExitCode::interrupted;
-  return exit_code_of(worst_verdict(summary.gates));
+  // A shard is a run of its own, even where one command starts several.
+  const std::unique_ptr<Ranks> ranks = request.shard ? nullptr : join_ranks();
+  if (!ranks) return run(request, nullptr);
+  return ranks->rank() == 0 ? lead(*ranks, request) : follow(*ranks, request);
 }
 
 }  // namespace
@@ -184,15 +237,7 @@ void add_run(CLI::App& program, ExitCode& exit_code) {
       ->required()
       ->option_text(" ");
   command->add_option("-o,--output", request->result, "Keep the trials in this result file (HDF5)")->type_name("FILE");
-  command
-      ->add_option("--summary", request->summary,
-                   "Write the summary to this file as JSON; - prints it instead of the table")
-      ->type_name("FILE");
-  request->reports.add_options(*command);
-  command
-      ->add_option("--baseline", request->baseline,
-                   "Gate on this earlier summary too: the success rate must not have dropped")
-      ->type_name("SUMMARY");
+  request->report.add_options(*command);
   command->add_option("--threads", request->threads, "Worker threads, 1 to 1024; one a core unless given")
       ->type_name("N")
       ->check(CLI::Range(1U, 1024U).description(""));
@@ -200,11 +245,16 @@ void add_run(CLI::App& program, ExitCode& exit_code) {
       ->add_option("--simd", request->simd,
                    "Instruction set for lockstep: avx512, avx2 or portable; the best unless given")
       ->type_name("NAME");
+  command->add_option("--shard", request->shard, "Run one of N parts of the study, for merge; the first is 1/N")
+      ->type_name("I/N");
   command->add_flag("--resume", request->resume,
                     "Go on with an interrupted run into the same -o, or extend it to more trials");
+  command->add_flag(
+      "--gather", request->gather,
+      "Under mpirun or srun: send trials to rank 0; else each rank writes beside the -o, which all share");
   command->add_flag("--no-progress", request->no_progress, "Do not show progress");
   command->footer(epilogue);
-  command->callback([request, &exit_code] { exit_code = run(*request); });
+  command->callback([request, &exit_code] { exit_code = run_alone_or_together(*request); });
 }
 
 }  // namespace steerstat

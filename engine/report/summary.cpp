@@ -113,6 +113,7 @@ Summary summarise(const Study& study, const StudyResult& result) {
   summary.wall_s = result.wall_s;
   summary.threads = result.threads;
   summary.simd = result.simd;
+  summary.share = result.share;
   return summary;
 }
 

@@ -46,7 +46,8 @@ std::string heading(const Summary& summary, bool colour) {
              faint, colour) +
       '\n';
   if (!summary.complete) {
-    text += styled(fmt::format("Incomplete: {} of {} finished; what follows is of those.",
+    const std::string what = summary.share ? "Shard " + share_text(*summary.share) : "Incomplete";
+    text += styled(fmt::format("{}: {} of {} finished; what follows is of those.", what,
                                readable_count(summary.completed), plural(summary.requested, "trial")),
                    fg(fmt::terminal_color::yellow) | bold, colour) +
             '\n';

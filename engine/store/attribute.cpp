@@ -64,6 +64,10 @@ void write_attribute(hid_t object, const std::string& name, bool value) {
   write_scalar(object, name, {type.id(), type.id()}, &byte);
 }
 
+bool has_attribute(hid_t object, const std::string& name) {
+  return checked(H5Aexists(object, name.c_str()), "cannot look for the attribute " + name) > 0;
+}
+
 std::string read_text_attribute(hid_t object, const std::string& name) {
   const Handle type = text_type();
   char* raw = nullptr;

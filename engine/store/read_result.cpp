@@ -114,6 +114,22 @@ std::optional<InstructionSet> read_simd(hid_t file) {
   return set;
 }
 
+/// @param stored  with the study and its trials
+std::optional<Share> read_share(hid_t file, const StoredStudy& stored) {
+  if (!hdf5::has_attribute(file, "shard")) return std::nullopt;
+  const Share share{hdf5::read_integer_attribute(file, "shard"), hdf5::read_integer_attribute(file, "shards")};
+  if (share.number < 1 || share.number > share.count || share.count > most_shares) {
+    throw Problem(fmt::format("it calls itself shard {} (shards count from 1)", share_text(share)));
+  }
+  if (stored.result.complete) throw Problem("it is a shard and called complete");
+  const TrialRange range = trials_of(stored.study, share);
+  const std::vector<std::uint64_t>& index = stored.result.trials.index;
+  if (!index.empty() && (index.front() < range.begin || index.back() >= range.end)) {
+    throw Problem(fmt::format("it has trials that are not in shard {}", share_text(share)));
+  }
+  return share;
+}
+
 std::vector<std::vector<double>> read_parameters(hid_t file, const Plan& plan, std::size_t rows) {
   const hdf5::Handle group = hdf5::open_group(file, "parameters");
   std::vector<std::vector<double>> columns;
@@ -146,6 +162,7 @@ StoredStudy read_bytes(std::span<const std::byte> bytes) {
   stored.result.wall_s = hdf5::read_real_attribute(file.id(), "wall_s");
   stored.result.threads = hdf5::read_integer_attribute(file.id(), "threads");
   stored.result.simd = read_simd(file.id());
+  stored.result.share = read_share(file.id(), stored);
   return stored;
 }
 

@@ -75,11 +75,11 @@ std::optional<StoredStudy> StudyDirectory::begun() const {
   return read_result(file);
 }
 
-/// Whether the directory's study is this one, of this version of the engine.
-bool StudyDirectory::holds(const Study& study) const {
+/// Whether the directory's study is this share of this one, of this version of the engine.
+bool StudyDirectory::holds(const Study& study, std::optional<Share> share) const {
   try {
     const std::optional<StoredStudy> before = begun();
-    return before && before->engine_version == engine_version() &&
+    return before && before->engine_version == engine_version() && before->result.share == share &&
            canonical_spec(before->study) == canonical_spec(study);
   } catch (const RunFailure&) {
     return false;
@@ -91,10 +91,13 @@ SetAside StudyDirectory::set_study_aside(const std::string& reason) {
   return set_aside(path_ / study_file, reason);
 }
 
-void StudyDirectory::begin(const Study& study) {
+void StudyDirectory::begin(const Study& study, std::optional<Share> share) {
   study_ = study;
   origin_ = origin_of(study);
-  if (!holds(study)) write_result(path_ / study_file, study, {});
+  if (holds(study, share)) return;
+  StudyResult nothing;
+  nothing.share = share;
+  write_result(path_ / study_file, study, nothing);
 }
 
 Recovery StudyDirectory::recover() {

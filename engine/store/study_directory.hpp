@@ -49,7 +49,8 @@ class StudyDirectory {
   SetAside set_study_aside(const std::string& reason);
 
   /// Writes the study, in place of another where one was begun. Once this returns it is on the disk. @throws RunFailure
-  void begin(const Study& study);
+  /// @param share  where no more than that share of it runs here
+  void begin(const Study& study, std::optional<Share> share = {});
 
   /// Reads every shard, all of it, and sets aside those that are damaged, or of another study or engine version than
   /// the one begun. @throws RunFailure
@@ -69,7 +70,7 @@ class StudyDirectory {
   void remove();
 
  private:
-  [[nodiscard]] bool holds(const Study& study) const;
+  [[nodiscard]] bool holds(const Study& study, std::optional<Share> share) const;
   [[nodiscard]] std::vector<std::filesystem::path> files_called(const char* prefix) const;
   SetAside set_aside(const std::filesystem::path& file, const std::string& reason) const;
   void remove_files(const char* prefix) const;

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
+#include <random>
 #include <system_error>
 #include <utility>
 
@@ -74,10 +75,11 @@ fs::path directory_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/// A name in a directory that no other write of this machine uses.
+/// A name in a directory that no other write uses, nor one of another machine that shares the directory.
 fs::path temporary_in(const fs::path& directory) {
+  static const unsigned process = std::random_device{}();
   static std::atomic<unsigned> count{0};
-  return directory / fmt::format(".tmp-{}-{}", ::getpid(), count++);
+  return directory / fmt::format(".tmp-{}-{:08x}-{}", ::getpid(), process, count++);
 }
 
 /// A new, empty file. What an earlier process of the same number left behind is in nobody's use.

@@ -29,6 +29,10 @@ void write_description(hid_t file, const Study& study, const StudyResult& result
   hdf5::write_attribute(file, "wall_s", result.wall_s);
   hdf5::write_attribute(file, "threads", std::uint32_t{result.threads});
   hdf5::write_attribute(file, "simd", std::string(result.simd ? name_of(*result.simd) : layout::no_simd));
+  if (result.share) {
+    hdf5::write_attribute(file, "shard", result.share->number);
+    hdf5::write_attribute(file, "shards", result.share->count);
+  }
 }
 
 void write_trials(hid_t file, const Plan& plan, const TrialTable& trials) {

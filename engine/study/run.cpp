@@ -51,13 +51,35 @@ std::uint64_t total(const std::vector<Tally>& tallies) {
   });
 }
 
+/// The trials of a plan from one on, counted from it.
+struct PlannedTrials {
+  const Plan& plan;
+  TrialRange range;
+
+  [[nodiscard]] std::uint64_t count() const { return range.end - range.begin; }
+  [[nodiscard]] TrialParameters parameters(std::uint64_t index) const { return plan.parameters(range.begin + index); }
+};
+
+/// Hands on what it takes, by the indices of the study.
+class RangeSink final : public OutcomeSink {
+ public:
+  RangeSink(OutcomeSink& sink, std::uint64_t begin) : sink_(sink), begin_(begin) {}
+  void take(std::uint64_t begin, std::span<const TrialOutcome> outcomes) override {
+    sink_.take(begin_ + begin, outcomes);
+  }
+
+ private:
+  OutcomeSink& sink_;
+  const std::uint64_t begin_;
+};
+
 /// Feeds one worker's runner block after block, so that its lanes refill across blocks, and stores each outcome in the
 /// slot of its index. The slots of different trials are distinct objects: no two workers write the same one.
 class BlockStream final : public TrialStream {
  public:
-  BlockStream(const Plan& plan, BlockQueue& blocks, std::vector<TrialOutcome>& outcomes, Listeners listeners,
-              Tally& tally, Turnstile::Turn& turn)
-      : plan_(plan), blocks_(blocks), outcomes_(outcomes), listeners_(listeners), tally_(tally), turn_(turn) {}
+  BlockStream(const PlannedTrials& planned, BlockQueue& blocks, std::vector<TrialOutcome>& outcomes,
+              Listeners listeners, Tally& tally, Turnstile::Turn& turn)
+      : planned_(planned), blocks_(blocks), outcomes_(outcomes), listeners_(listeners), tally_(tally), turn_(turn) {}
 
   bool next(std::uint64_t& index, TrialParameters& parameters) override {
     if (block_.begin == block_.end) {
@@ -69,7 +91,7 @@ class BlockStream final : public TrialStream {
       block_ = *claimed;
     }
     index = block_.begin++;
-    parameters = plan_.parameters(index);
+    parameters = planned_.parameters(index);
     return true;
   }
 
@@ -81,7 +103,7 @@ class BlockStream final : public TrialStream {
   }
 
  private:
-  const Plan& plan_;
+  const PlannedTrials planned_;
   BlockQueue& blocks_;
   std::vector<TrialOutcome>& outcomes_;
   const Listeners listeners_;
@@ -224,12 +246,12 @@ void show(FinishedPrefix& prefix, std::span<const TrialRange> known, BlockQueue&
 }
 
 /// Runs the workers until no block is left to begin. @throws what a worker threw
-void work(const Study& study, const Plan& plan, const RunOptions& options, BlockQueue& blocks,
+void work(const Study& study, const PlannedTrials& planned, const RunOptions& options, BlockQueue& blocks,
           std::vector<TrialOutcome>& outcomes, Listeners listeners, std::vector<Tally>& tallies) {
   const auto work_as = [&](std::size_t worker) {
     try {
       Turnstile::Turn turn(options.turns);
-      BlockStream stream(plan, blocks, outcomes, listeners, tallies[worker], turn);
+      BlockStream stream(planned, blocks, outcomes, listeners, tallies[worker], turn);
       const auto runner =
           options.make_runner ? options.make_runner(study.integrator) : make_runner(study.integrator, options.simd);
       runner->run(stream);
@@ -242,17 +264,19 @@ void work(const Study& study, const Plan& plan, const RunOptions& options, Block
   arena.execute([&] { tbb::parallel_for(std::size_t{0}, tallies.size(), work_as, tbb::simple_partitioner{}); });
 }
 
-/// Runs what was not finished earlier. Fills in the trials, their time and whether they are complete.
-void run_trials(const Study& study, const Plan& plan, const RunOptions& options, FinishedTrials earlier,
-                StudyResult& result) {
+/// Runs what was not finished earlier; until the watch has stopped, where there is one. Fills in the trials, counted as
+/// they are planned, and their time.
+/// @return the first trial that was not begun, before which all are finished
+std::uint64_t run_trials(const Study& study, const PlannedTrials& planned, const RunOptions& options,
+                         FinishedTrials earlier, std::optional<PrecisionWatch> watch, StudyResult& result) {
   const Clock::time_point start = Clock::now();
   const std::uint64_t block = block_size(study);
   const std::vector<TrialRange> known = ranges_of(earlier.trials.index);
-  std::vector<TrialOutcome> outcomes = spread(std::move(earlier.trials), plan.trials());
-  BlockQueue blocks(known, plan.trials(), block, options.stop);
+  std::vector<TrialOutcome> outcomes = spread(std::move(earlier.trials), planned.count());
+  BlockQueue blocks(known, planned.count(), block, options.stop);
   std::optional<FinishedPrefix> prefix;
-  if (study.stop) {
-    prefix.emplace(watch_of(study, plan), outcomes, block);
+  if (watch) {
+    prefix.emplace(std::move(*watch), outcomes, block);
     show(*prefix, known, blocks);
   }
   Showing showing(options.sink, outcomes);
@@ -261,23 +285,50 @@ void run_trials(const Study& study, const Plan& plan, const RunOptions& options,
     handover.emplace(*options.sink, blocks.blocks(), block, outcomes, [&blocks] { blocks.halt(); });
   }
   std::vector<Tally> tallies(result.threads);
-  ProgressReports reports(options, plan.trials(), trials_in(known), tallies, start, blocks);
-  work(study, plan, options, blocks, outcomes, {prefix ? &*prefix : nullptr, handover ? &*handover : nullptr}, tallies);
+  ProgressReports reports(options, planned.count(), trials_in(known), tallies, start, blocks);
+  work(study, planned, options, blocks, outcomes, {prefix ? &*prefix : nullptr, handover ? &*handover : nullptr},
+       tallies);
   result.wall_s = earlier.wall_s + seconds_since(start);
   if (handover) handover->finish();
   reports.finish();
   showing.end();
   if (total(tallies) != blocks.begun()) throw std::logic_error("a runner returned before its trials were finished");
+  result.trials = gathered(std::move(outcomes), blocks.first_left(), known);
+  return blocks.first_left();
+}
 
-  const std::uint64_t finished = blocks.first_left();  // all before it
-  result.trials = gathered(std::move(outcomes), finished, known);
-  // Of the trials beyond the look that stopped the study, some have run, which ones is a matter of timing.
+/// Of the trials beyond the look that stopped the study, some have run, which ones is a matter of timing: drops them.
+/// @param finished  trials from the first on
+void cut_where_due(const Study& study, std::uint64_t finished, StudyResult& result) {
   const std::uint64_t due = trials_due(study, result.trials);
   result.complete = finished >= due;
   if (!result.complete) return;
   result.trials.index.resize(due);
   result.trials.outcomes.resize(due);
 }
+
+/// A result to be filled in by as many workers as were asked for, but no more than there are blocks.
+StudyResult begun(const Study& study, const RunOptions& options, std::uint64_t trials) {
+  const std::uint64_t asked = options.threads == 0 ? default_threads() : options.threads;
+  const std::uint64_t blocks = (trials + block_size(study) - 1) / block_size(study);
+  StudyResult result;
+  result.threads = static_cast<unsigned>(std::clamp<std::uint64_t>(blocks, 1, asked));
+  if (study.integrator.method == IntegratorChoice::Method::lockstep) result.simd = options.simd;
+  return result;
+}
+
+/// TBB keeps to the cores unless allowed more; the caller may ask for more. Of several such controls TBB heeds the
+/// least, so that of runs that share turns is theirs alone.
+class AllowedWorkers {
+ public:
+  AllowedWorkers(const RunOptions& options, unsigned workers) {
+    if (options.turns != nullptr) return;
+    control_.emplace(tbb::global_control::max_allowed_parallelism, std::max(workers, default_threads()));
+  }
+
+ private:
+  std::optional<tbb::global_control> control_;
+};
 
 }  // namespace
 
@@ -314,28 +365,39 @@ SharedWorkers::~SharedWorkers() = default;
 
 StudyResult run_study(const Study& study, const RunOptions& options, FinishedTrials earlier) {
   const Plan plan(study);
-  const unsigned cores = default_threads();
-  const std::uint64_t asked = options.threads == 0 ? cores : options.threads;
-  const std::uint64_t blocks = (plan.trials() + block_size(study) - 1) / block_size(study);
-  const auto workers = static_cast<unsigned>(std::clamp<std::uint64_t>(blocks, 1, asked));
-
-  StudyResult result;
-  result.threads = workers;
-  if (study.integrator.method == IntegratorChoice::Method::lockstep) result.simd = options.simd;
-  // TBB keeps to the cores unless allowed more; the caller may ask for more. Of several such controls TBB heeds the
-  // least, so that of runs that share turns is theirs alone.
-  std::optional<tbb::global_control> allow;
-  if (options.turns == nullptr) {
-    allow.emplace(tbb::global_control::max_allowed_parallelism, std::max(workers, cores));
-  }
-  run_trials(study, plan, options, std::move(earlier), result);
+  StudyResult result = begun(study, options, plan.trials());
+  const AllowedWorkers allow(options, result.threads);
+  std::optional<PrecisionWatch> watch;
+  if (study.stop) watch.emplace(watch_of(study, plan));
+  const PlannedTrials planned{plan, {0, plan.trials()}};
+  cut_where_due(study, run_trials(study, planned, options, std::move(earlier), std::move(watch), result), result);
   // Of a few lockstep trials, which fill one block, the audit still has work for every thread.
-  tbb::task_arena wide_arena(static_cast<int>(std::min<std::uint64_t>(asked, std::max(workers, cores))));
+  const unsigned cores = default_threads();
+  const unsigned asked = options.threads == 0 ? cores : options.threads;
+  tbb::task_arena wide_arena(static_cast<int>(std::min(asked, std::max(result.threads, cores))));
   const Showing showing(result.complete ? options.sink : nullptr, result.trials.outcomes);
   wide_arena.execute([&] {
     result.trajectories = retained_trajectories(study, plan, result.trials, options.turns);
     result.audit = audit_of(study, plan, result.trials, options);
   });
+  return result;
+}
+
+StudyResult run_range(const Study& study, TrialRange range, const RunOptions& options, FinishedTrials earlier) {
+  const Plan plan(study);
+  if (range.begin > range.end || range.end > plan.trials() || range.begin % block_size(study) != 0) {
+    throw std::invalid_argument("run_range: the range is not one of whole blocks of the study");
+  }
+  const PlannedTrials planned{plan, range};
+  StudyResult result = begun(study, options, planned.count());
+  const AllowedWorkers allow(options, result.threads);
+  std::optional<RangeSink> sink;
+  if (options.sink != nullptr) sink.emplace(*options.sink, range.begin);
+  RunOptions of_range = options;
+  of_range.sink = sink ? &*sink : nullptr;
+  run_trials(study, planned, of_range, counted_from(range, std::move(earlier)), std::nullopt, result);
+  for (std::uint64_t& index : result.trials.index) index += range.begin;
+  result.audit.tolerance = auditor_of(study.integrator).tolerance;
   return result;
 }
 

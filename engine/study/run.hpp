@@ -12,6 +12,7 @@
 #include "study/outcome_sink.hpp"
 #include "study/plan.hpp"
 #include "study/precision_watch.hpp"
+#include "study/share.hpp"
 #include "study/study.hpp"
 #include "study/trial_table.hpp"
 #include "study/turnstile.hpp"
@@ -58,6 +59,7 @@ struct StudyResult {
   double wall_s{0.0};   ///< [s] the trials took, those finished earlier too, retained trajectories and audit not
   unsigned threads{0};  ///< workers that shared the trials: as asked, but never more than the study has blocks
   std::optional<InstructionSet> simd;  ///< what lockstep ran on; nothing with another integrator
+  std::optional<Share> share;          ///< where these are a share of the study; it is never complete then
 };
 
 /// Trials a worker claims at a time: several times what the lanes of lockstep hold, which refill across blocks; few
@@ -98,5 +100,14 @@ class SharedWorkers {
 /// @throws RunFailure, BadUsage where this machine does not run the instruction set asked for, and whatever a worker,
 /// the progress callback or the sink throws, with nothing kept but by the sink.
 StudyResult run_study(const Study& study, const RunOptions& options, FinishedTrials earlier = {});
+
+/// Runs consecutive trials of a study, whatever its rule says, and audits none: of a study that runs in several places.
+/// What it takes grows with the range and not with the study. Otherwise as run_study(); the sink is shown no slots.
+///
+/// @param range    begins where a block begins (block_size())
+/// @param earlier  those outside of the range are dropped
+/// @return not complete; the range has finished where every trial of it is there
+/// @throws std::invalid_argument for another range
+StudyResult run_range(const Study& study, TrialRange range, const RunOptions& options, FinishedTrials earlier = {});
 
 }  // namespace steerstat

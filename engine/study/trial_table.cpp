@@ -50,6 +50,19 @@ FinishedTrials joined(FinishedTrials a, FinishedTrials b) {
   return interleaved(a, b);
 }
 
+FinishedTrials counted_from(TrialRange range, FinishedTrials finished) {
+  std::vector<std::uint64_t>& index = finished.trials.index;
+  std::vector<TrialOutcome>& outcomes = finished.trials.outcomes;
+  const auto first = std::lower_bound(index.begin(), index.end(), range.begin) - index.begin();
+  const auto last = std::lower_bound(index.begin(), index.end(), range.end) - index.begin();
+  index.erase(index.begin() + last, index.end());
+  index.erase(index.begin(), index.begin() + first);
+  outcomes.erase(outcomes.begin() + last, outcomes.end());
+  outcomes.erase(outcomes.begin(), outcomes.begin() + first);
+  for (std::uint64_t& trial : index) trial -= range.begin;
+  return finished;
+}
+
 std::vector<TrialOutcome> spread(TrialTable table, std::uint64_t trials) {
   if (!table.index.empty() && table.index.back() >= trials) {
     throw std::invalid_argument("spread: a trial beyond the last of the study");

@@ -24,6 +24,9 @@ struct FinishedTrials {
 /// Joins what two runs of a study finished: the trials of either, each once.
 FinishedTrials joined(FinishedTrials a, FinishedTrials b);
 
+/// The trials of `range` alone, with indices counted from its begin. They took what all took.
+FinishedTrials counted_from(TrialRange range, FinishedTrials finished);
+
 /// Moves outcomes to the slots of their indices.
 /// @return (trials) by index; those that the table does not have, as made by TrialOutcome's constructor
 /// @throws std::invalid_argument where the table has an index of `trials` or beyond

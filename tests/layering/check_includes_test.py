@@ -92,6 +92,9 @@ class LibraryRules(unittest.TestCase):
         self.assert_only_in("<boost/math/distributions/binomial.hpp>", ["engine/statistics/a.cpp"],
                             ["engine/report/a.cpp", "studies/a.cpp"])
 
+    def test_mpi_is_only_in_distributed(self):
+        self.assert_only_in("<mpi.h>", ["engine/distributed/a.cpp"], ["engine/study/a.cpp", "studies/a.cpp"])
+
     def test_http_is_only_in_the_server(self):
         self.assert_only_in("<httplib.h>", ["server/a.cpp"], ["engine/core/a.cpp", "studies/a.cpp"])
 

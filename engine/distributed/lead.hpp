@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/instruction_set.hpp"
+#include "distributed/ranks.hpp"
+#include "store/study_directory.hpp"
+#include "study/run.hpp"
+
+namespace steerstat {
+
+/// What several ranks have finished together.
+struct RankedRun {
+  FinishedTrials finished;  ///< all that is known, earlier trials too; the time is that on the leader's clock
+  unsigned threads{0};      ///< of all ranks
+  std::optional<InstructionSet> simd;  ///< the least of any rank, with lockstep
+  std::vector<SetAside> set_aside;     ///< shards that were found damaged; the trials in them are missing
+};
+
+/// Leads the ranks through a study, and works with them on a thread of its own: deals out what is missing until all is
+/// finished, the study's rule stops it or a stop is requested. Called on rank 0; others work().
+///
+/// @param options    progress, stop, threads and simd are heeded
+/// @param earlier    trials that need not run again
+/// @param directory  begun: takes every finished trial; null: none are kept
+/// @param gather     whether outcomes are sent to the leader, who writes them, instead of each rank writing its own
+/// into
+///                   the directory; without a directory they are sent in any case
+/// @throws RunFailure with what failed first on any rank, once no rank works any more. The ranks then wait for another
+///         study or their end, as they do after a run that went well.
+RankedRun run_on_ranks(Ranks& ranks, const Study& study, const RunOptions& options, FinishedTrials earlier,
+                       StudyDirectory* directory, bool gather);
+
+/// What run_study() would have left: heeds the study's rule, retains trajectories and audits, on the leader alone. Runs
+/// what is still missing, but for a stop.
+StudyResult completed(const Study& study, const RunOptions& options, RankedRun ranked);
+
+/// Sends all other ranks out of work() with an exit code. Called on rank 0.
+void end_ranks(Ranks& ranks, int exit_code);
+
+}  // namespace steerstat
