@@ -232,6 +232,24 @@ TEST_F(MergeCommand, AKilledShardIsUnfinishedUntilItIsResumed) {
   EXPECT_EQ(read_result(shard(1)).result.trials.index.size(), due);
 }
 
+TEST_F(MergeCommand, TheTasksOfAJobArrayAreShardsThatMerge) {
+  set_spec(spec_of(500));
+  ASSERT_EQ(run_whole().exit_code, 0);
+  Words shards;
+  for (const char* task : {"3", "1", "2"}) {
+    Surroundings of_task;
+    of_task.environment = {"PATH=/usr/bin:/bin",           "LANG=C.UTF-8",
+                           "STEERSTAT=" STEERSTAT_PROGRAM, "SLURM_ARRAY_TASK_COUNT=3",
+                           "SLURM_CPUS_PER_TASK=2",        std::string("SLURM_ARRAY_TASK_ID=") + task};
+    Process process("/bin/bash", {STEERSTAT_SOURCE_DIR "/studies/slurm/array.sbatch", spec_, out_}, of_task);
+    const Ending ending = process.wait();
+    EXPECT_EQ(ending.exit_code, 0) << ending.err;
+    shards.push_back(out_ + ".shards/" + task + ".h5");
+  }
+  EXPECT_EQ(merge(shards).exit_code, 0);
+  EXPECT_TRUE(lasting_content_of(out_) == lasting_content_of(whole_));
+}
+
 /// How many shards a merge is to take: 300, or as the environment says (tests/run nightly: 10,000).
 std::uint32_t wanted_shards() {
   const char* const asked = std::getenv("STEERSTAT_SHARDS");  // NOLINT(concurrency-mt-unsafe): nothing sets it
