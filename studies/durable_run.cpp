@@ -33,7 +33,7 @@ fs::path parts_of(const fs::path& result) {
 }
 
 /// "the whole study" or "shard 3/10 of it".
-std::string part_text(const std::optional<Share>& share) {
+std::string part_text(const std::optional<StudyShare>& share) {
   return share ? fmt::format("shard {} of it", share_text(*share)) : "the whole study";
 }
 
@@ -57,7 +57,7 @@ auto saying_what_is_kept(const std::optional<StudyDirectory>& directory, const A
 
 }  // namespace
 
-DurableRun::DurableRun(const fs::path& result, const Study& study, std::optional<Share> share, bool resume)
+DurableRun::DurableRun(const fs::path& result, const Study& study, std::optional<StudyShare> share, bool resume)
     : path_(result), study_(study), share_(share), due_(Plan(study).trials()) {
   if (share_) {
     const TrialRange range = trials_of(study, *share_);

@@ -21,7 +21,7 @@ class DurableRun {
   /// @param resume  whether to go on with an interrupted run, its directory or its incomplete result; begins anew where
   ///                there is neither
   /// @throws BadUsage where there is another study's, or finished trials that nobody asked to resume; RunFailure
-  DurableRun(const std::filesystem::path& result, const Study& study, std::optional<Share> share, bool resume);
+  DurableRun(const std::filesystem::path& result, const Study& study, std::optional<StudyShare> share, bool resume);
 
   /// Runs what is not finished yet. @throws as run_study() and run_range() do; a RunFailure says what is kept
   ///
@@ -46,8 +46,8 @@ class DurableRun {
   std::filesystem::path path_;
   std::filesystem::path parts_;
   const Study& study_;
-  std::optional<Share> share_;  // of the study
-  std::uint64_t due_;           // trials to run in all
+  std::optional<StudyShare> share_;  // of the study
+  std::uint64_t due_;                // trials to run in all
   std::optional<StudyDirectory> directory_;
   FinishedTrials finished_;           // by earlier runs
   std::optional<StudyResult> whole_;  // where there is nothing left to run

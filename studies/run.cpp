@@ -87,9 +87,9 @@ void check_outputs(const Request& request) {
 }
 
 /// @throws BadUsage for what is no share, and for what only a whole study has
-std::optional<Share> share_of(const Request& request) {
+std::optional<StudyShare> share_of(const Request& request) {
   if (!request.shard) return std::nullopt;
-  const std::optional<Share> share = parse_share(*request.shard);
+  const std::optional<StudyShare> share = parse_share(*request.shard);
   if (!share) {
     throw BadUsage(fmt::format("--shard: '{}' is no shard (I/N, with I from 1 to N, and N at most {}); try 1/4",
                                printable(*request.shard), readable_count(most_shares)));
@@ -168,7 +168,7 @@ ExitCode run(const Request& request, Ranks* ranks) {
     return run_of_approximation(*approximation, request);
   }
   const Study& study = std::get<Study>(spec);
-  const std::optional<Share> share = share_of(request);
+  const std::optional<StudyShare> share = share_of(request);
   const std::optional<Baseline> baseline = read_baseline(request, study);
   check_outputs(request);
   const Interruption interruption;  // to the end: an interrupt must not cost the outputs of a run that is over

@@ -96,7 +96,7 @@ struct Summary {
   double wall_s{0.0};
   unsigned threads{0};
   std::optional<InstructionSet> simd;  ///< what lockstep ran on
-  std::optional<Share> share;          ///< where the trials are a share of the study
+  std::optional<StudyShare> share;     ///< where the trials are a share of the study
 };
 
 /// Summarises finished trials. The same trials give the same bits, in whatever order and on however many threads they

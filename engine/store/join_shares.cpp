@@ -97,7 +97,7 @@ class Joining {
       return fmt::format("{} is of another study, id {}, than {}, id {} (all shards have the same spec)", file.string(),
                          study_id(stored.study), first_->string(), study_id(joined_.study));
     }
-    const Share share = *stored.result.share;
+    const StudyShare share = *stored.result.share;
     if (share.count != files_.size()) {
       return fmt::format("{} is shard {} and {} is one of {} (all shards are of the same division)", file.string(),
                          share_text(share), first_->string(), files_.size());
@@ -119,7 +119,7 @@ class Joining {
   }
 
   void take(StudyResult result, const fs::path& file) {
-    const Share share = *result.share;
+    const StudyShare share = *result.share;
     files_[share.number - 1] = file;
     const TrialTable& trials = result.trials;
     for (std::size_t row = 0; row < trials.index.size(); ++row) slots_[trials.index[row]] = trials.outcomes[row];
@@ -137,7 +137,7 @@ class Joining {
     std::vector<std::uint64_t> missing;
     Objections objections;
     for (std::uint32_t number = 1; number <= files_.size(); ++number) {
-      const Share share{number, static_cast<std::uint32_t>(files_.size())};
+      const StudyShare share{number, static_cast<std::uint32_t>(files_.size())};
       const TrialRange range = share_of(trials_, block_size(joined_.study), share);
       const std::uint64_t end = std::min(range.end, due);
       if (range.begin >= end) continue;

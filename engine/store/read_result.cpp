@@ -115,9 +115,9 @@ std::optional<InstructionSet> read_simd(hid_t file) {
 }
 
 /// @param stored  with the study and its trials
-std::optional<Share> read_share(hid_t file, const StoredStudy& stored) {
+std::optional<StudyShare> read_share(hid_t file, const StoredStudy& stored) {
   if (!hdf5::has_attribute(file, "shard")) return std::nullopt;
-  const Share share{hdf5::read_integer_attribute(file, "shard"), hdf5::read_integer_attribute(file, "shards")};
+  const StudyShare share{hdf5::read_integer_attribute(file, "shard"), hdf5::read_integer_attribute(file, "shards")};
   if (share.number < 1 || share.number > share.count || share.count > most_shares) {
     throw Problem(fmt::format("it calls itself shard {} (shards count from 1)", share_text(share)));
   }

@@ -76,7 +76,7 @@ std::optional<StoredStudy> StudyDirectory::begun() const {
 }
 
 /// Whether the directory's study is this share of this one, of this version of the engine.
-bool StudyDirectory::holds(const Study& study, std::optional<Share> share) const {
+bool StudyDirectory::holds(const Study& study, std::optional<StudyShare> share) const {
   try {
     const std::optional<StoredStudy> before = begun();
     return before && before->engine_version == engine_version() && before->result.share == share &&
@@ -91,7 +91,7 @@ SetAside StudyDirectory::set_study_aside(const std::string& reason) {
   return set_aside(path_ / study_file, reason);
 }
 
-void StudyDirectory::begin(const Study& study, std::optional<Share> share) {
+void StudyDirectory::begin(const Study& study, std::optional<StudyShare> share) {
   study_ = study;
   origin_ = origin_of(study);
   if (holds(study, share)) return;

@@ -50,7 +50,7 @@ class StudyDirectory {
 
   /// Writes the study, in place of another where one was begun. Once this returns it is on the disk. @throws RunFailure
   /// @param share  where no more than that share of it runs here
-  void begin(const Study& study, std::optional<Share> share = {});
+  void begin(const Study& study, std::optional<StudyShare> share = {});
 
   /// Reads every shard, all of it, and sets aside those that are damaged, or of another study or engine version than
   /// the one begun. @throws RunFailure
@@ -70,7 +70,7 @@ class StudyDirectory {
   void remove();
 
  private:
-  [[nodiscard]] bool holds(const Study& study, std::optional<Share> share) const;
+  [[nodiscard]] bool holds(const Study& study, std::optional<StudyShare> share) const;
   [[nodiscard]] std::vector<std::filesystem::path> files_called(const char* prefix) const;
   SetAside set_aside(const std::filesystem::path& file, const std::string& reason) const;
   void remove_files(const char* prefix) const;

@@ -59,7 +59,7 @@ struct StudyResult {
   double wall_s{0.0};   ///< [s] the trials took, those finished earlier too, retained trajectories and audit not
   unsigned threads{0};  ///< workers that shared the trials: as asked, but never more than the study has blocks
   std::optional<InstructionSet> simd;  ///< what lockstep ran on; nothing with another integrator
-  std::optional<Share> share;          ///< where these are a share of the study; it is never complete then
+  std::optional<StudyShare> share;     ///< where these are a share of the study; it is never complete then
 };
 
 /// Trials a worker claims at a time: several times what the lanes of lockstep hold, which refill across blocks; few

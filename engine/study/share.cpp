@@ -19,20 +19,20 @@ std::optional<std::uint32_t> parse_number(std::string_view text) {
 
 }  // namespace
 
-std::optional<Share> parse_share(std::string_view text) {
+std::optional<StudyShare> parse_share(std::string_view text) {
   const std::size_t slash = text.find('/');
   if (slash == std::string_view::npos) return std::nullopt;
   const auto number = parse_number(text.substr(0, slash));
   const auto count = parse_number(text.substr(slash + 1));
   if (!number || !count || *number < 1 || *number > *count || *count > most_shares) return std::nullopt;
-  return Share{*number, *count};
+  return StudyShare{*number, *count};
 }
 
-std::string share_text(const Share& share) {
+std::string share_text(const StudyShare& share) {
   return std::to_string(share.number) + "/" + std::to_string(share.count);
 }
 
-TrialRange share_of(std::uint64_t trials, std::uint64_t block, const Share& share) {
+TrialRange share_of(std::uint64_t trials, std::uint64_t block, const StudyShare& share) {
   const std::uint64_t blocks = trials / block + (trials % block > 0 ? 1 : 0);
   const std::uint64_t each = blocks / share.count;
   const std::uint64_t rest = blocks % share.count;
@@ -42,7 +42,7 @@ TrialRange share_of(std::uint64_t trials, std::uint64_t block, const Share& shar
   return {first_trial(share.number - 1), first_trial(share.number)};
 }
 
-TrialRange trials_of(const Study& study, const Share& share) {
+TrialRange trials_of(const Study& study, const StudyShare& share) {
   return share_of(Plan(study).trials(), block_size(study), share);
 }
 

@@ -117,7 +117,7 @@ TEST_F(MergeCommand, AShardShowsWhichItIs) {
   EXPECT_THAT(steerstat({"show", shard(2)}).out, HasSubstr("Shard 2/3: 128 of 300 trials finished"));
   const StoredStudy stored = read_result(shard(2));
   EXPECT_FALSE(stored.result.complete);
-  EXPECT_EQ(stored.result.share, (Share{2, 3}));
+  EXPECT_EQ(stored.result.share, (StudyShare{2, 3}));
   EXPECT_EQ(stored.result.trials.index.front(), 128U);
 }
 
@@ -287,7 +287,7 @@ TEST_F(MergeCommand, OfManyShardsTakesTheMemoryAndTheFilesOfFew) {
                                    {});
   // Outcomes that nobody simulated: merge takes them as they are, since it audits and retains none.
   std::mt19937_64 generator(1);
-  const auto write = [&](const Share& share) {
+  const auto write = [&](const StudyShare& share) {
     StudyResult result;
     result.share = share;
     result.threads = 1;

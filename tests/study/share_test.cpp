@@ -18,18 +18,18 @@ Study study_of(std::uint64_t trials, const std::string& more = "") {
                       {});
 }
 
-TEST(Share, IsReadOnlyWhereItIsOneOfItsShards) {
-  EXPECT_EQ(parse_share("1/1"), (Share{1, 1}));
-  EXPECT_EQ(parse_share("3/10"), (Share{3, 10}));
-  EXPECT_EQ(parse_share("10/10"), (Share{10, 10}));
-  EXPECT_EQ(parse_share("1/1000000"), (Share{1, 1000000}));
+TEST(StudyShare, IsReadOnlyWhereItIsOneOfItsShards) {
+  EXPECT_EQ(parse_share("1/1"), (StudyShare{1, 1}));
+  EXPECT_EQ(parse_share("3/10"), (StudyShare{3, 10}));
+  EXPECT_EQ(parse_share("10/10"), (StudyShare{10, 10}));
+  EXPECT_EQ(parse_share("1/1000000"), (StudyShare{1, 1000000}));
   for (const char* text : {"0/4", "5/4", "1/0", "0/0", "1/1000001", "", "/", "1", "1/", "/4", "1/4/2", "-1/4", "+1/4",
                            " 1/4", "1/4 ", "1.0/4", "a/b", "4294967297/4294967298"}) {
     EXPECT_FALSE(parse_share(text)) << text;
   }
 }
 
-TEST(Share, SharesAreEveryTrialOnceInWholeBlocksAndAlike) {
+TEST(StudyShare, SharesAreEveryTrialOnceInWholeBlocksAndAlike) {
   for (const std::uint64_t trials : {1U, 127U, 128U, 129U, 1280U, 1281U, 10000U}) {
     for (const std::uint32_t count : {1U, 2U, 3U, 7U, 100U}) {
       std::uint64_t end = 0;
@@ -48,7 +48,7 @@ TEST(Share, SharesAreEveryTrialOnceInWholeBlocksAndAlike) {
   }
 }
 
-TEST(Share, TheLargestNumbersDoNotOverflow) {
+TEST(StudyShare, TheLargestNumbersDoNotOverflow) {
   const std::uint64_t trials = std::uint64_t{1} << 62;
   EXPECT_EQ(share_of(trials, 1, {most_shares, most_shares}).end, trials);
   EXPECT_EQ(share_of(trials, 1, {1, 2}).end, trials / 2);
