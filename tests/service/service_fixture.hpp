@@ -26,13 +26,9 @@ inline std::string quick_spec(std::uint64_t trials, std::uint64_t seed = 1, cons
          std::to_string(trials) + R"(, "seed": )" + std::to_string(seed) + "}" + more + "}";
 }
 
-/// Quick trials that take half a second at least, so that a test can come in between: fewer beside a sanitizer or
-/// without optimisation, where they are several times slower.
-#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__) || !defined(__OPTIMIZE__)
-inline constexpr std::uint64_t many_trials = 40'000;
-#else
-inline constexpr std::uint64_t many_trials = 200'000;
-#endif
+/// Quick trials that take a second or so, so that a test can come in between; hardly longer beside a sanitizer, which
+/// the kernels are spared.
+inline constexpr std::uint64_t many_trials = 400'000;
 
 /// One that takes many seconds: it is always under way while a test looks.
 inline std::string long_spec(std::uint64_t seed = 1) {
