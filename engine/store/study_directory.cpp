@@ -8,6 +8,7 @@
 
 #include "core/errors.hpp"
 #include "core/version.hpp"
+#include "store/study_files.hpp"
 #include "store/whole_file.hpp"
 #include "study/plan.hpp"
 #include "study/spec_json.hpp"
@@ -17,19 +18,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* study_file = "study.h5";
-constexpr const char* temporary_prefix = ".tmp-";
-constexpr const char* shard_prefix = "trials-";
 constexpr const char* damaged_prefix = "damaged-";
 
 [[noreturn]] void fail(const char* verb, const fs::path& path, const std::error_code& error) {
   throw RunFailure(fmt::format("cannot {} {} ({})", verb, path.string(), error.message()));
-}
-
-void remove_file(const fs::path& path) {
-  std::error_code error;
-  fs::remove(path, error);
-  if (error) fail("delete", path, error);
 }
 
 /// A directory that is new is on the disk with its name before anything is kept in it.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/errors.hpp"
+#include "store/study_files.hpp"
 #include "store/whole_file.hpp"
 #include "study/continuation.hpp"
 #include "study/plan.hpp"
@@ -19,10 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* study_file = "study.h5";
-constexpr const char* shard_prefix = "trials-";
 constexpr const char* earlier_prefix = "earlier-";
-constexpr const char* temporary_prefix = ".tmp-";
 
 [[noreturn]] void fail(const char* verb, const fs::path& path, const std::error_code& error) {
   throw RunFailure(fmt::format("cannot {} {} ({})", verb, path.string(), error.message()));
@@ -41,12 +39,6 @@ std::vector<fs::path> files_in(const fs::path& directory, std::initializer_list<
   if (error) fail("list", directory, error);
   std::sort(found.begin(), found.end());
   return found;
-}
-
-void remove_file(const fs::path& path) {
-  std::error_code error;
-  fs::remove(path, error);
-  if (error) fail("delete", path, error);
 }
 
 bool is_there(const fs::path& path) {

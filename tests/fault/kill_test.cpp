@@ -1,6 +1,5 @@
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <iostream>
 #include <map>
 #include <random>
@@ -12,12 +11,6 @@ namespace steerstat::testing {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// How many kills a test is to survive: 20, or as the environment says (tests/run nightly: 200).
-int wanted_kills() {
-  const char* const asked = std::getenv("STEERSTAT_KILLS");  // NOLINT(concurrency-mt-unsafe): nothing sets it
-  return asked == nullptr ? 20 : std::atoi(asked);
-}
 
 std::uint64_t trials_in(const std::string& shard) {
   return std::stoull(shard.substr(20, 12)) - std::stoull(shard.substr(7, 12));

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -23,12 +22,6 @@ namespace steerstat::testing {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// How many kills the service is to survive: 20, or as the environment says (tests/run nightly: 200).
-int wanted_kills() {
-  const char* const asked = std::getenv("STEERSTAT_KILLS");  // NOLINT(concurrency-mt-unsafe): nothing sets it
-  return asked == nullptr ? 20 : std::atoi(asked);
-}
 
 /// Three studies side by side, one of which extends another.
 class ServiceKill : public ::testing::Test {

@@ -72,6 +72,9 @@ class Process {
   std::string shown_;
 };
 
+/// How many kills a test is to survive: 20, or as the environment says (tests/run nightly: 200).
+int wanted_kills();
+
 /// Runs `steerstat` to its end.
 Ending steerstat(const std::vector<std::string>& arguments, const Surroundings& surroundings = {});
 
