@@ -318,12 +318,13 @@ StudyResult begun(const Study& study, const RunOptions& options, std::uint64_t t
 }
 
 /// TBB keeps to the cores unless allowed more; the caller may ask for more. Of several such controls TBB heeds the
-/// least, so that of runs that share turns is theirs alone.
+/// least, so that of runs that share turns is theirs alone. Nothing is asked of TBB where the cores are enough: it
+/// reads the set of its controls without a lock when an arena begins, so that runs side by side should not change it.
 class AllowedWorkers {
  public:
   AllowedWorkers(const RunOptions& options, unsigned workers) {
-    if (options.turns != nullptr) return;
-    control_.emplace(tbb::global_control::max_allowed_parallelism, std::max(workers, default_threads()));
+    if (options.turns != nullptr || workers <= default_threads()) return;
+    control_.emplace(tbb::global_control::max_allowed_parallelism, workers);
   }
 
  private:

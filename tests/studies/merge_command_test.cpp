@@ -194,42 +194,39 @@ TEST_F(MergeCommand, BadUseOfShardsIsFoundBeforeAnythingRuns) {
   EXPECT_FALSE(fs::exists(out_));
 }
 
-TEST_F(MergeCommand, AKilledShardIsUnfinishedUntilItIsResumed) {
-  set_spec(spec_of(400000));
-  const auto parts = [&] { return scratch_ / "shard-1.h5.parts"; };
-  const auto kept = [&] {
-    if (!fs::exists(parts())) return false;
-    for (const auto& file : fs::directory_iterator(parts())) {
-      if (file.path().filename().string().starts_with("trials-")) return true;
-    }
-    return false;
-  };
+TEST_F(MergeCommand, AnInterruptedShardIsUnfinished) {
+  set_spec(spec_of(4000000));
+  const fs::path parts = scratch_ / "shard-1.h5.parts";
   {
     Process process(STEERSTAT_PROGRAM, run_words(1, 2));
-    while (!kept()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    while (!fs::exists(parts)) std::this_thread::sleep_for(std::chrono::milliseconds(2));
     process.send(SIGINT);
     EXPECT_EQ(process.wait().exit_code, 130);
   }
-  const std::uint64_t due = 199936;  // 1,562 of the 3,125 blocks
-  ASSERT_LT(read_result(shard(1)).result.trials.index.size(), due);
+  ASSERT_LT(read_result(shard(1)).result.trials.index.size(), 2000000U) << "15,625 of the 31,250 blocks";
   expect_refused({shard(1)}, "shard-1.h5 is unfinished");
-  {
-    Process process(STEERSTAT_PROGRAM, joined(run_words(1, 2), {"--resume"}));
-    while (!kept()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    process.send(SIGKILL);
-    EXPECT_EQ(process.wait().signal, SIGKILL);
-  }
   Words another = joined(run_words(2, 2), {"--resume"});
   another[3] = shard(1);
   const Ending refused = steerstat(another);
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("is of shard 1/2 of it and this run is of shard 2/2 of it"));
+}
+
+TEST_F(MergeCommand, AKilledShardGoesOnWhenItIsResumed) {
+  set_spec(spec_of(280000));
+  const fs::path parts = scratch_ / "shard-1.h5.parts";
+  // The second file of trials, after the study's: one is written, at the latest, when 65,536 trials wait.
+  Surroundings surroundings;
+  surroundings.environment.emplace_back("STEERSTAT_FAILPOINT=after-rename:3:kill");
+  ASSERT_EQ(steerstat(run_words(1, 2), surroundings).signal, SIGKILL);
+  EXPECT_TRUE(fs::exists(parts));
+  EXPECT_FALSE(fs::exists(shard(1)));
   const Ending resumed = steerstat(joined(run_words(1, 2), {"--resume"}));
   EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
-  EXPECT_THAT(resumed.err, HasSubstr("of 199,936 trials"));
-  EXPECT_FALSE(fs::exists(parts()));
+  EXPECT_THAT(resumed.err, HasSubstr("of 140,032 trials"));  // 1,094 of the 2,188 blocks
+  EXPECT_FALSE(fs::exists(parts));
   EXPECT_THAT(steerstat(joined(run_words(1, 2), {"--resume"})).err, HasSubstr("nothing is left to run"));
-  EXPECT_EQ(read_result(shard(1)).result.trials.index.size(), due);
+  EXPECT_EQ(read_result(shard(1)).result.trials.index.size(), 140032U);
 }
 
 TEST_F(MergeCommand, TheTasksOfAJobArrayAreShardsThatMerge) {
