@@ -38,6 +38,10 @@ bool RawClient::send(const std::string& bytes) {
   return true;
 }
 
+void RawClient::end() {
+  shutdown(socket_.get(), SHUT_WR);
+}
+
 bool RawClient::fill(std::chrono::steady_clock::time_point end) {
   const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - std::chrono::steady_clock::now()).count();
   pollfd wait{socket_.get(), POLLIN, 0};

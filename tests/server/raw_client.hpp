@@ -25,6 +25,8 @@ class RawClient {
 
   /// @return whether the other side took all of it
   bool send(const std::string& bytes);
+  /// Sends nothing more, and says so.
+  void end();
   /// One response with a Content-Length, or without a body. @param head_only  it answers a HEAD
   RawResponse receive(bool head_only = false, std::chrono::milliseconds patience = std::chrono::seconds(20));
   /// All until `text` has come or the other side closes; what was left of it too.

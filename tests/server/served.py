@@ -10,16 +10,27 @@ import urllib.error
 import urllib.request
 
 
+class NotReady(AssertionError):
+    """It ended before it was ready, with this exit code."""
+
+    def __init__(self, line, told, code):
+        super().__init__(f"it says {line!r}, and {told!r}")
+        self.code = code
+
+
 class Served:
     """The process once it is ready."""
 
-    def __init__(self, program, data, *options):
+    def __init__(self, program, data, *options, on_start=lambda process: None):
+        """on_start gets the process before it is ready."""
         self.process = subprocess.Popen([program, "serve", "--port", "0", "--data", str(data), "--threads", "2", *options],
                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        on_start(self.process)
         line = self.process.stdout.readline()
         match = re.fullmatch(r"steerstat serves (http://\S+:(\d+))/ \(studies in .*\)\n", line)
         if not match:
-            raise AssertionError(f"it says {line!r}, and {self.process.communicate(timeout=60)[1]!r}")
+            told = self.process.communicate(timeout=60)[1]
+            raise NotReady(line, told, self.process.returncode)
         self.url, self.port = match[1], int(match[2])
 
     def ask(self, method, path, body=None, headers=()):
