@@ -3,9 +3,7 @@
 # minutes to instrument, so only what calls them is. Orders and lanes are ints there. GCC 12 takes the undefined operand
 # inside some AVX-512 intrinsics for a mistake of ours, and orders the series' long straight lines better before it hands
 # out registers, minding how many there are, than after: a twentieth more trials a second. Its vectoriser of straight
-# lines may drop a rounding to single precision and back, which the portable pack has (tests/core sees it). The portable
-# kernel, arrays instead of registers, takes gcc over a minute; less care does beside sanitizers, where its speed is
-# nobody's.
+# lines may drop a rounding to single precision and back, which the portable pack has (tests/core sees it).
 #
 #   steerstat_kernels(STEM SOURCES_VARIABLE)   appends STEM_avx512.cpp and so on, those this processor family may have
 function(steerstat_kernels stem sources)
@@ -17,9 +15,6 @@ function(steerstat_kernels stem sources)
     list(APPEND flags -fno-sanitize=all)
   endif()
   set(portable_flags ${flags} -fno-tree-slp-vectorize)
-  if(STEERSTAT_SANITIZE)
-    list(APPEND portable_flags -O1 -finline-functions)
-  endif()
   set(kernels ${stem}_portable.cpp)
   set_source_files_properties(${stem}_portable.cpp PROPERTIES COMPILE_OPTIONS "${portable_flags}")
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
