@@ -1,6 +1,7 @@
 #include "statistics/sample.hpp"
 
 #include <algorithm>
+#include <boost/sort/spreadsort/float_sort.hpp>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
@@ -37,7 +38,7 @@ double quantile(std::span<const double> sorted, double p) {
 std::optional<SampleStatistics> describe(std::span<const double> sample) {
   if (sample.empty()) return std::nullopt;
   std::vector<double> sorted(sample.begin(), sample.end());
-  std::sort(sorted.begin(), sorted.end());
+  boost::sort::spreadsort::float_sort(sorted.begin(), sorted.end());
   // Dividing the rounded sum can leave the sample's range by an ulp, most visibly for a constant sample.
   const double mean = std::clamp(mean_of(sample), sorted.front(), sorted.back());
   return SampleStatistics{mean,

@@ -48,6 +48,21 @@ H5FD_file_image_callbacks_t keeping_in(Bytes& closed) {
   return callbacks;
 }
 
+/// What HDF5 calls to have a file's memory, for one that is only read: it gets the very bytes, wherever it would copy
+/// them, which is four times on the way to an open file.
+H5FD_file_image_callbacks_t lending(std::span<const std::byte> bytes) {
+  using Operation = H5FD_file_image_op_t;
+  H5FD_file_image_callbacks_t callbacks{};
+  callbacks.image_malloc = [](size_t, Operation, void* lent) { return lent; };
+  callbacks.image_memcpy = [](void* to, const void*, size_t, Operation, void*) { return to; };
+  callbacks.image_realloc = [](void*, size_t, Operation, void*) -> void* { return nullptr; };  // it does not grow
+  callbacks.image_free = [](void*, Operation, void*) -> herr_t { return 0; };
+  callbacks.udata_copy = [](void* lent) { return lent; };
+  callbacks.udata_free = [](void*) -> herr_t { return 0; };
+  callbacks.udata = const_cast<std::byte*>(bytes.data());  // nothing writes to a file that is opened to be read
+  return callbacks;
+}
+
 Handle create(Bytes& closed) {
   const Handle access = access_in_memory();
   H5FD_file_image_callbacks_t callbacks = keeping_in(closed);
@@ -77,8 +92,9 @@ Bytes MemoryFile::close() {
 
 Handle open_in_memory(std::span<const std::byte> bytes) {
   const Handle access = access_in_memory();
-  std::vector<std::byte> image(bytes.begin(), bytes.end());  // HDF5 asks for a buffer that it may write to
-  checked(H5Pset_file_image(access.id(), image.data(), image.size()), "cannot keep the file in memory");
+  H5FD_file_image_callbacks_t callbacks = lending(bytes);
+  checked(H5Pset_file_image_callbacks(access.id(), &callbacks), "cannot keep the file in memory");
+  checked(H5Pset_file_image(access.id(), callbacks.udata, bytes.size()), "cannot keep the file in memory");
   return {H5Fopen(unused_name().c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose, "cannot open it as HDF5"};
 }
 

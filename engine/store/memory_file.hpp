@@ -43,7 +43,7 @@ class MemoryFile {
   Handle file_;
 };
 
-/// A file to be read. @param bytes  all of its bytes, copied @throws Problem
+/// A file to be read. @param bytes  all of its bytes, not empty, which must outlive it @throws Problem
 Handle open_in_memory(std::span<const std::byte> bytes);
 
 }  // namespace steerstat::hdf5

@@ -24,7 +24,7 @@ inline constexpr std::size_t most_listed_failures = 500;
 inline constexpr std::uint64_t most_listed_cells = 20'000;
 
 /// Sensitivity indices of more trials than this are those of the first so many.
-inline constexpr std::size_t most_sensitivity_trials = 200'000;
+inline constexpr std::size_t most_sensitivity_trials = 100'000;
 
 /// The success rate along one input.
 struct Marginal {
@@ -91,7 +91,7 @@ struct StudyViewOptions {
   std::size_t most_maps{0};
 };
 
-/// @param summary  of the study's finished trials
+/// @param summary  of the study's finished trials; it goes into the view as it is
 StudyView study_view(const ViewedStudy& viewed, const Summary& summary, const StudyViewOptions& options = {});
 
 /// The view as JSON (schemas/view.schema.json), ending in a newline.

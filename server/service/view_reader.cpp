@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <future>
 #include <utility>
 
 #include "core/errors.hpp"
@@ -20,9 +21,12 @@ StudyViews::Text StudyReader::study_view(const StudyEntry& entry) {
   const StudyState state = catalogue_.state(entry);
   return views_.view(entry.id, state.revision, state.status == StudyStatus::running, [&] {
     const std::shared_ptr<const KeptStudy> kept = everything(entry);
+    // The summary takes as long as all the rest: it is made beside it.
+    auto summary = std::async(std::launch::async, [&] { return summarise(*entry.study, kept->result); });
     const auto parameters = drawn_parameters(Plan(*entry.study), kept->result.trials);
-    const Summary summary = summarise(*entry.study, kept->result);
-    return study_view_json(steerstat::study_view({*entry.study, kept->result, parameters}, summary, {state.created}));
+    StudyView view = steerstat::study_view({*entry.study, kept->result, parameters}, {}, {state.created});
+    view.summary = summary.get();
+    return study_view_json(view);
   });
 }
 

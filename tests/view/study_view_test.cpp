@@ -120,6 +120,16 @@ TEST(StudyView, BandsOfAMarginalCountDrawsAndNotTheirCells) {
   }
 }
 
+TEST(StudyView, HasTheIndicesOfTheFirstHundredThousandTrialsWhereThereAreMore) {
+  for (const char* trials : {"100000", "100001"}) {
+    const Finished made =
+        finished(R"({"plant": {"m1": {"uniform": [0.8, 1.2]}}, "sampling": {"trials": )" + std::string(trials) + "}}");
+    const StudyView view = view_of(made);
+    EXPECT_EQ(view.sensitivity_of, 100000U);
+    EXPECT_EQ(view.given_data.outputs[0].trials, 100000U);  // success, which every trial has
+  }
+}
+
 TEST(StudyView, ListsTheFirstFailures) {
   const StudyView view = view_of(finished(drawn_spec(2000)));
   EXPECT_EQ(view.failed.index.size(), most_listed_failures);
