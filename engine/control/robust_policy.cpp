@@ -26,7 +26,6 @@ constexpr double most_friction = 0.5;     // [1/s]
 constexpr double least_push = 0.02;       // [rad/s] that the gain is learned from
 constexpr double least_gain = 0.4;        // of a cycle
 constexpr double most_gain = 2.0;         // of a cycle
-constexpr double too_quick = 0.9;         // share of r e from which on the joint brakes
 constexpr double patience = 10.0;         // [s] the time that a joint may need for what lies before it
 constexpr double creeping_speed = 0.003;  // [rad/s]
 constexpr double creeping_range = 0.05;   // [rad] beyond the goal
@@ -48,6 +47,17 @@ double double_sine(double y) {
 double angle_past_edge(double q2, const Goal& goal) {
   const double u = modulo_turn(goal.sigma * (q2 - goal.edge));
   return u < 1.5 * pi ? u : u - 2.0 * pi;
+}
+
+/// [s] of the next cycle, with the joint at a speed omega.
+double cycle_period(double omega, const Controller::Robust& robust) {
+  return std::min(robust.period, std::max(least_period, most_turn / std::abs(omega)));
+}
+
+/// [rad/s] what a cycle of period T that brakes from omega, at a distance e, is to leave of the speed.
+double speed_after_braking(double omega, double e, double T, const Controller::Robust& robust) {
+  const double tau = robust.alignment_time, r = robust.rate;
+  return std::max(0.1 * omega, r * (e - 0.5 * T * omega) / (1.0 + r * (0.5 * T + tau)));
 }
 
 /// The rules in one state; README.md section 1 has the symbols.
@@ -72,7 +82,7 @@ class RobustPolicy {
         entry_(robust_.entry_fraction * goal.width),
         delta_(0.5 * arc_sine(controller.swing.min_authority + spare_authority)),
         near_(std::max(0.0, 0.9 * controller.convergence.tolerance - std::abs(omega_))),
-        period_(std::min(robust_.period, std::max(least_period, most_turn / std::abs(omega_)))),
+        period_(cycle_period(omega_, robust_)),
         travel_(travel()) {}
 
   [[nodiscard]] Phase choose() const {
@@ -107,10 +117,10 @@ class RobustPolicy {
 
   /// Rule 1: too fast for the distance left: to the ratio omega/e = r with one cycle.
   [[nodiscard]] std::optional<Phase> brake() const {
-    if (!approaches() || y_ < entry_ - arrived || omega_ < too_quick * robust_.rate * e_) return std::nullopt;
-    const double T = period_, tau = robust_.alignment_time, r = robust_.rate;
-    const double after = std::max(0.1 * omega_, r * (e_ - 0.5 * T * omega_) / (1.0 + r * (0.5 * T + tau)));
-    const double distance = 0.5 * T * (omega_ + after) + tau * after;
+    if (!approaches() || y_ < entry_ - arrived || omega_ < braking_share * robust_.rate * e_) return std::nullopt;
+    const double T = period_;
+    const double after = speed_after_braking(omega_, e_, T, robust_);
+    const double distance = 0.5 * T * (omega_ + after) + robust_.alignment_time * after;
     return cycle(PhaseKind::contraction, omega_ - after - c_ * distance, y_ + T * (3.0 * omega_ + after) / 8.0);
   }
 
@@ -263,6 +273,15 @@ void embark(const Phase& phase, const State<double>& x, Experience& experience) 
   experience.q2_dot = x.q2_dot;
   experience.period = phase.duration;
   experience.amplitude = phase.amplitude;
+}
+
+BrakingAim braking_aim(const State<double>& x, const Controller& controller, const Goal& goal) {
+  const double omega = goal.sigma * x.q2_dot;
+  const double e = goal.width - angle_past_edge(x.q2, goal);
+  const double T = cycle_period(omega, controller.robust);
+  const double after = speed_after_braking(omega, e, T, controller.robust);
+  const double left = e - 0.5 * T * (omega + after);
+  return {left, left - controller.robust.alignment_time * after, after};
 }
 
 STEERSTAT_CLONED

@@ -22,6 +22,19 @@ void embark(const Phase& phase, const State<double>& x, Experience& experience);
 Phase steer_robustly(const State<double>& x, const Experience& experience, const Controller& controller,
                      const Goal& goal);
 
+/// Share of r e [rad/s] from which on the joint is too fast and brakes (README.md section 4, rule 1).
+inline constexpr double braking_share = 0.9;
+
+/// What rule 1 of README.md section 4 aims at.
+struct BrakingAim {
+  double distance_after_cycle;  ///< [rad] e, to the goal
+  double distance_after_align;  ///< [rad] with an align of the expected duration
+  double speed;                 ///< [rad/s] omega, from the cycle's end on
+};
+
+/// The aim of a cycle that brakes from state x.
+BrakingAim braking_aim(const State<double>& x, const Controller& controller, const Goal& goal);
+
 /// The align of the robust policy from state x: no longer than alignment.max_duration, and so slow that |a| stays
 /// within max_acceleration (README.md section 5).
 Phase align_robustly(const State<double>& x, const Controller& controller, const Goal& goal);

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "control/goal.hpp"
+#include "control/robust_policy.hpp"
 #include "view/thinning.hpp"
 
 namespace steerstat {
@@ -13,18 +14,38 @@ namespace {
 
 constexpr int samples_per_cycle = 32;
 
-std::vector<ContractionCycle> cycles_of(const Trajectory& trajectory, std::size_t phases, const Goal& goal) {
+std::vector<ContractionCycle> cycles_of(const Trajectory& trajectory, std::size_t phases,
+                                        const TrialParameters& parameters) {
+  const Goal& goal = parameters.goal;
+  const Controller& controller = parameters.controller;
+  const bool is_robust = controller.policy == Policy::robust;
   std::vector<ContractionCycle> cycles;
   for (std::size_t i = 0; i < phases; ++i) {
     const PhaseSpan& phase = trajectory.phases[i];
     if (phase.kind != PhaseKind::contraction || !phase.whole) continue;
     const TrajectorySample& start = trajectory.samples[phase.first];
-    const TrajectorySample& end = trajectory.samples[phase.last];
+    const bool aligns = is_robust && i + 1 < phases && trajectory.phases[i + 1].kind == PhaseKind::align;
+    const TrajectorySample& end = trajectory.samples[trajectory.phases[aligns ? i + 1 : i].last];
     // Followed through the cycle, as ContractionRecord does: u jumps by a turn where the link passes the edge.
     const double before = goal.width - modulo_turn(goal.sigma * (start.state.q2 - goal.edge));
     const double after = before - goal.sigma * (end.state.q2 - start.state.q2);
-    cycles.push_back({start.t, end.t, before, after, goal.sigma * start.state.q2_dot, goal.sigma * end.state.q2_dot,
-                      passive_error(end.state, goal)});
+    const double omega = goal.sigma * start.state.q2_dot;
+    const auto& [eta1, eta2, max_period] = controller.contraction;
+    ContractionCycle cycle{start.t,
+                           end.t,
+                           before,
+                           after,
+                           eta1 * before,
+                           omega,
+                           goal.sigma * end.state.q2_dot,
+                           eta2 * omega,
+                           passive_error(end.state, goal)};
+    if (is_robust) {
+      const BrakingAim aim = braking_aim(start.state, controller, goal);
+      cycle.distance_predicted = aligns ? aim.distance_after_align : aim.distance_after_cycle;
+      cycle.speed_predicted = aim.speed;
+    }
+    cycles.push_back(cycle);
   }
   return cycles;
 }
@@ -72,7 +93,7 @@ TrialView trial_view(const Study& study, std::uint64_t index, const TrialParamet
   view.phases_of = trajectory.phases.size();
   // A trial may have thousands of phases; half of the points at most go to their ends.
   const std::size_t phases = std::min({view.phases_of, most_listed_phases, points / 4});
-  view.cycles = cycles_of(trajectory, phases, parameters.goal);
+  view.cycles = cycles_of(trajectory, phases, parameters);
   view.q1_low = view.q1_high = parameters.start.q1;
   if (samples.empty()) return view;  // it ended where it started
 

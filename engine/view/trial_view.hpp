@@ -15,11 +15,14 @@ inline constexpr std::size_t most_trajectory_points = 2'000;
 /// At most this many phases of a trial are listed.
 inline constexpr std::size_t most_listed_phases = 300;
 
-/// One contraction cycle that ran its whole period.
+/// One contraction cycle that ran its whole period. The robust policy's goes on to the end of an align that
+/// follows: by then the policy wants the speed to be r times the distance to go.
 struct ContractionCycle {
   double start, end;                       ///< [s]
   double distance_before, distance_after;  ///< [rad] distance to go e = w - u (CONTROLLER.md section 4), not wrapped
+  double distance_predicted;               ///< [rad] by (14), or what the robust policy aimed at
   double speed_before, speed_after;        ///< [rad/s] omega = sigma q2_dot
+  double speed_predicted;                  ///< [rad/s] by (15), or what the robust policy aimed at
   double passive_error_after;              ///< rad + rad/s
 };
 

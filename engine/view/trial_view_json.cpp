@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "control/robust_policy.hpp"
 #include "study/inputs.hpp"
 #include "view/columns_json.hpp"
 #include "view/trial_view.hpp"
@@ -97,27 +98,34 @@ Json contraction_json(const TrialView& view) {
     return json;
   };
   const Controller& controller = view.parameters.controller;
-  return {{"eta1", controller.contraction.eta1},
-          {"eta2", controller.contraction.eta2},
+  const bool paper = controller.policy == Policy::paper;
+  return {{"eta1", paper ? Json(controller.contraction.eta1) : Json(nullptr)},
+          {"eta2", paper ? Json(controller.contraction.eta2) : Json(nullptr)},
+          {"rate", paper ? Json(nullptr) : Json(controller.robust.rate)},
           {"start", column(&ContractionCycle::start, time_digits)},
           {"end", column(&ContractionCycle::end, time_digits)},
           {"distance_before", column(&ContractionCycle::distance_before)},
           {"distance_after", column(&ContractionCycle::distance_after)},
+          {"distance_predicted", column(&ContractionCycle::distance_predicted)},
           {"speed_before", column(&ContractionCycle::speed_before)},
           {"speed_after", column(&ContractionCycle::speed_after)},
+          {"speed_predicted", column(&ContractionCycle::speed_predicted)},
           {"passive_error_after", column(&ContractionCycle::passive_error_after)},
           {"tolerance", controller.convergence.tolerance}};
 }
 
-/// CONTROLLER.md section 5, rule 4.
+/// CONTROLLER.md section 5, rule 4, or rule 1 of the robust policy.
 Json contraction_set_json(const TrialView& view) {
   const Goal& goal = view.parameters.goal;
   const Controller& controller = view.parameters.controller;
-  const double entry = goal.edge + goal.sigma * controller.entry_fraction * goal.width;
+  const bool paper = controller.policy == Policy::paper;
+  const double fraction = paper ? controller.entry_fraction : controller.robust.entry_fraction;
+  const double rate = paper ? (1.0 - controller.contraction.eta1) / controller.contraction.max_period
+                            : braking_share * controller.robust.rate;
   return {{"sigma", goal.sigma > 0.0 ? 1 : -1},
-          {"q2_entry", entry},
+          {"q2_entry", goal.edge + goal.sigma * fraction * goal.width},
           {"q2_goal", goal.q2},
-          {"least_rate", (1.0 - controller.contraction.eta1) / controller.contraction.max_period}};
+          {"least_rate", rate}};
 }
 
 }  // namespace

@@ -72,6 +72,34 @@ TEST(TrialView, ContractsAsTheOutcomeSays) {
   EXPECT_LE(view.cycles.back().passive_error_after, 0.01);
 }
 
+TEST(TrialView, PredictsCyclesOfThePaperByTheirEtas) {
+  for (const ContractionCycle& cycle : shown(friction()).view.cycles) {
+    EXPECT_EQ(cycle.distance_predicted, 0.5 * cycle.distance_before);
+    EXPECT_EQ(cycle.speed_predicted, 0.6 * cycle.speed_before);
+  }
+}
+
+TEST(TrialView, PredictsCyclesOfTheRobustPolicyByWhatItAimsAtAfterTheirAlign) {
+  const Study study = decode_study(R"({"plant": {"f1": 0.02, "f2": 0.02}, "controller": {"policy": "robust"}})", {});
+  const auto [trajectory, view] = shown(study);
+  ASSERT_EQ(view.cycles.size(), trajectory.outcome.cycles);
+  ASSERT_GE(view.cycles.size(), 2U);
+  bool aligned = false;
+  for (const ContractionCycle& cycle : view.cycles) {
+    // On a plant that is the nominal one but for friction, what the policy aims at is what happens, to a tenth or so.
+    EXPECT_NEAR(cycle.speed_after, cycle.speed_predicted, 0.15 * cycle.speed_before);
+    EXPECT_NEAR(cycle.distance_after, cycle.distance_predicted, 0.15 * cycle.distance_before);
+    for (std::size_t i = 0; i + 1 < trajectory.phases.size(); ++i) {
+      const PhaseSpan& next = trajectory.phases[i + 1];
+      if (trajectory.samples[trajectory.phases[i].first].t != cycle.start || next.kind != PhaseKind::align) continue;
+      EXPECT_EQ(trajectory.samples[next.last].t, cycle.end);
+      EXPECT_NEAR(cycle.speed_predicted, 0.4 * cycle.distance_predicted, 1e-12);
+      aligned = true;
+    }
+  }
+  EXPECT_TRUE(aligned);
+}
+
 TEST(TrialView, LeavesOutTheCycleThatTheHorizonCut) {
   const Study study = decode_study(R"({"plant": {"f1": 0.02, "f2": 0.02}, "horizon": 20})", {});
   const auto [trajectory, view] = shown(study);
@@ -115,6 +143,20 @@ TEST(TrialViewJson, HasTheContractionSetAndTheGoalThatIsNearest) {
     ASSERT_LT(at, t.size());
     EXPECT_GE(json["trajectory"]["q2"][at].get<double>(), std::numbers::pi / 8 - 2e-6);
     EXPECT_LT(json["trajectory"]["q2"][at].get<double>(), std::numbers::pi / 4);
+  }
+}
+
+TEST(TrialViewJson, HasTheSetWhereTheRobustPolicyBrakes) {
+  const Study study = decode_study(R"({"controller": {"policy": "robust"}})", {});
+  const auto [trajectory, view] = shown(study);
+  const Json json = testing::json_of(trial_view_json(view));
+  EXPECT_NEAR(json["contraction_set"]["q2_entry"], 0.3 * std::numbers::pi / 4, 1e-15);
+  EXPECT_NEAR(json["contraction_set"]["least_rate"], 0.9 * 0.4, 1e-15);
+  EXPECT_EQ(json["contraction"]["rate"], 0.4);
+  EXPECT_EQ(json["contraction"]["eta1"], nullptr);
+  for (const ContractionCycle& cycle : view.cycles) {  // cycles begin inside the set
+    EXPECT_LE(cycle.distance_before, 0.7 * std::numbers::pi / 4 + 2e-6);
+    EXPECT_GE(cycle.speed_before, 0.9 * 0.4 * cycle.distance_before - 1e-12);
   }
 }
 

@@ -3,8 +3,10 @@
 import { useEffect, useRef } from "preact/hooks";
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
+import { logSplits, logTickTexts } from "./log_axis";
 import { number } from "./numbers";
 import { type Palette, useTheme } from "./theme";
+import { touchZoom } from "./touch_zoom";
 
 export type ChartOptions = Omit<uPlot.Options, "width" | "height">;
 
@@ -20,9 +22,11 @@ export interface ChartProps {
   tooltip?: (chart: uPlot, index: number) => string[] | null;
   /** Called with the chart, and with null when it is gone. */
   onChart?: (chart: uPlot | null) => void;
+  /** Whether two fingers zoom into x, and one moves along it. (A mouse does by uPlot's own drag.) */
+  canZoom?: boolean;
 }
 
-export function Chart({ label, height, data, build, version = 0, tooltip, onChart }: ChartProps) {
+export function Chart({ label, height, data, build, version = 0, tooltip, onChart, canZoom = false }: ChartProps) {
   const { palette } = useTheme();
   const place = useRef<HTMLDivElement>(null);
   const chart = useRef<uPlot | null>(null);
@@ -35,6 +39,7 @@ export function Chart({ label, height, data, build, version = 0, tooltip, onChar
     if (!element) return;
     const options = build(palette);
     if (tooltip) options.plugins = [...(options.plugins ?? []), tooltipPlugin((u, index) => latest.current.tooltip?.(u, index) ?? null)];
+    if (canZoom) options.plugins = [...(options.plugins ?? []), touchZoom()];
     const made = new uPlot({ ...options, width: Math.max(80, element.clientWidth), height }, shown.current, element);
     chart.current = made;
     latest.current.onChart?.(made);
@@ -100,10 +105,11 @@ export interface AxisOptions {
   grid?: boolean;
   space?: number;
   splits?: uPlot.Axis["splits"];
+  filter?: uPlot.Axis["filter"];
 }
 
 /** An axis in the page's manner. */
-export function axis(palette: Palette, side: "bottom" | "left", { label, size, values, grid = true, space, splits }: AxisOptions = {}): uPlot.Axis {
+export function axis(palette: Palette, side: "bottom" | "left", { label, size, values, grid = true, space, splits, filter }: AxisOptions = {}): uPlot.Axis {
   return {
     side: side === "bottom" ? 2 : 3,
     stroke: palette.muted,
@@ -120,18 +126,14 @@ export function axis(palette: Palette, side: "bottom" | "left", { label, size, v
     values: (_u, ticks) => (values ? values(ticks) : ticks.map((tick) => (tick === null ? "" : number(tick, 6)))),
     ...(label === undefined ? {} : { label }),
     ...(splits === undefined ? {} : { splits }),
+    ...(filter === undefined ? {} : { filter }),
   };
 }
 
 export const percentTicks = (values: number[]) => values.map((value) => (value === null ? "" : `${number(100 * value, 3)} %`));
 
-/** Of a log axis: names powers of ten alone, so that they do not crowd. */
-export const powerTicks = (values: number[]) =>
-  values.map((value) => {
-    if (value === null || value <= 0) return "";
-    const power = Math.log10(value);
-    return Math.abs(power - Math.round(power)) < 1e-6 ? number(value, 3) : "";
-  });
+/** The ticks of a log axis. */
+export const logTicks: AxisOptions = { splits: (_u, _axis, low, high) => logSplits(low, high), filter: (_u, splits) => splits, values: logTickTexts };
 
 /** Pixels of the canvas to one of the page. */
 export const ratio = () => devicePixelRatio;

@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { fromOklab, rateColours, textOn, toOklab } from "./colour";
+import { logSplits, logTickTexts } from "./log_axis";
 import { symbol } from "./names";
 import { readProblem } from "./problem";
 import { trajectoryCsv } from "./trajectory_csv";
@@ -15,6 +16,17 @@ describe("rate colours", () => {
     for (const hex of ["#000000", "#ffffff", "#0a62a9", "#cf6a0c"]) expect(fromOklab(toOklab(hex))).toBe(hex);
     expect(textOn("#eef0f2")).toBe("#000000");
     expect(textOn("#0a5a9e")).toBe("#ffffff");
+  });
+});
+
+describe("log axes", () => {
+  it("have 1 to 9 times the powers of ten, wherever they begin", () => {
+    expect(logSplits(25, 420)).toEqual([30, 40, 50, 60, 70, 80, 90, 100, 200, 300, 400]);
+    expect(logSplits(0.0018, 0.0031)).toEqual([0.002, 0.003]);
+  });
+  it("name powers of ten, and 2 and 5 times them where there are too few", () => {
+    expect(logTickTexts(logSplits(8, 120)).filter((text) => text !== "")).toEqual(["10", "100"]);
+    expect(logTickTexts(logSplits(25, 420)).filter((text) => text !== "")).toEqual(["50", "100", "200"]);
   });
 });
 

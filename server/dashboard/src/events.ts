@@ -52,11 +52,11 @@ export class EventParser {
 export const backoff = (attempt: number) => Math.min(8000, 500 * 2 ** attempt);
 
 export interface Follow {
-  onEvent(event: ServerEvent): void;
+  onEvent: (event: ServerEvent) => void;
   /** Of every attempt: whether the stream is open. */
-  onOpen(isOpen: boolean): void;
+  onOpen: (isOpen: boolean) => void;
   /** Whether to go on after this event, or after an answer that is no stream (its status). */
-  goesOn(last: ServerEvent | number): boolean;
+  goesOn: (last: ServerEvent | number) => boolean;
 }
 
 /** Follows a stream of events, connecting again with Last-Event-ID, until it is done or aborted. */

@@ -47,9 +47,9 @@ export interface Studies {
   studies: StudyState[] | null;
   problem: Problem | null;
   hasMore: boolean;
-  more(): void;
+  more: () => void;
   /** Looks again now. */
-  refresh(): void;
+  refresh: () => void;
 }
 
 /** The list of studies, kept up to date: by events where studies run, and by looking again every few seconds. */

@@ -14,6 +14,9 @@ export function count(value: number): string {
   return signed(grouped(String(Math.round(value))));
 }
 
+/** "1 trial", "2,000 trials". */
+export const counted = (value: number, what: string) => `${count(value)} ${what}${value === 1 ? "" : "s"}`;
+
 /** To so many significant digits, without zeros at the end. */
 export function number(value: number | null | undefined, digits = 4): string {
   if (value === null || value === undefined || Number.isNaN(value)) return none;

@@ -1,22 +1,22 @@
 import uPlot from "uplot";
 import { useMemo } from "preact/hooks";
-import { Chart, axis, drawInside, faded, powerTicks, ratio } from "../chart";
+import { Chart, axis, drawInside, faded, logTicks, ratio } from "../chart";
 import type { TrialView } from "../documents";
 import { number, quantity } from "../numbers";
 
 type Contraction = TrialView["contraction"];
 
-/** What each contraction cycle left of the error, on a log axis, against what eta predicts. */
+/** What each contraction cycle left of the error, on a log axis, against what was predicted. */
 export function ContractionPlot({ contraction, of, height }: { contraction: Contraction; of: "distance" | "speed"; height: number }) {
   const before = of === "distance" ? contraction.distance_before : contraction.speed_before;
   const after = of === "distance" ? contraction.distance_after : contraction.speed_after;
-  const eta = of === "distance" ? contraction.eta1 : contraction.eta2;
+  const predicted = of === "distance" ? contraction.distance_predicted : contraction.speed_predicted;
   const unit = of === "distance" ? "rad" : "rad/s";
   const size = before.length;
   const isDistance = of === "distance";
   const data = useMemo<uPlot.AlignedData>(() => [Array.from({ length: size }, (_, k) => k + 1), after.map(Math.abs)], [contraction, of]);
   const range = useMemo(() => {
-    const values = [...before, ...after, ...before.map((value) => eta * value), ...(isDistance ? [...contraction.passive_error_after, contraction.tolerance] : [])].map(Math.abs).filter((value) => value > 0);
+    const values = [...before, ...after, ...predicted, ...(isDistance ? [...contraction.passive_error_after, contraction.tolerance] : [])].map(Math.abs).filter((value) => value > 0);
     const low = Math.min(...values);
     const high = Math.max(...values);
     return [low / 1.5, high * 1.5] as [number, number];
@@ -24,7 +24,7 @@ export function ContractionPlot({ contraction, of, height }: { contraction: Cont
   const name = isDistance ? "|e|, distance to go" : "|ω|, speed";
   return (
     <Chart
-      label={`${isDistance ? "Distance to go" : "Speed"} after each of ${size} contraction cycles, against the predicted factor ${number(eta)}`}
+      label={`${isDistance ? "Distance to go" : "Speed"} after each of ${size} contraction cycles, against what was predicted`}
       height={height}
       data={data}
       version={`${of} ${size} ${range}`}
@@ -35,7 +35,7 @@ export function ContractionPlot({ contraction, of, height }: { contraction: Cont
         scales: { x: { time: false, range: [-0.2, size + 0.2] }, y: { distr: 3, range } },
         axes: [
           axis(palette, "bottom", { label: "contraction cycle", grid: false, values: (ticks) => ticks.map((tick) => (Number.isInteger(tick) ? String(tick) : "")) }),
-          axis(palette, "left", { label: `${name} [${unit}]`, size: 54, values: powerTicks }),
+          axis(palette, "left", { label: `${name} [${unit}]`, size: 54, ...logTicks }),
         ],
         series: [{}, { stroke: "transparent", points: { show: false } }],
         hooks: {
@@ -67,7 +67,7 @@ export function ContractionPlot({ contraction, of, height }: { contraction: Cont
                   context.setLineDash([5 * ratio(), 4 * ratio()]);
                   context.beginPath();
                   context.moveTo(x(k), y(from));
-                  context.lineTo(x(k + 1), y(eta * from));
+                  context.lineTo(x(k + 1), y(predicted[k] ?? 0));
                   context.stroke();
                   context.setLineDash([]);
                   context.strokeStyle = palette.accent;
@@ -95,7 +95,7 @@ export function ContractionPlot({ contraction, of, height }: { contraction: Cont
       tooltip={(_u, k) => {
         const from = before[k] ?? 0;
         const to = after[k] ?? 0;
-        const lines = [`cycle ${k + 1}: ${quantity(from, unit)} to ${quantity(to, unit)}`, `left ${number(to / from, 3)}, predicted ${number(eta, 3)}`];
+        const lines = [`cycle ${k + 1}: ${quantity(from, unit)} to ${quantity(to, unit)}`, `left ${number(to / from, 3)}, predicted ${number((predicted[k] ?? 0) / from, 3)}`];
         return isDistance ? [...lines, `ε after it ${number(contraction.passive_error_after[k] ?? null, 3)}`] : lines;
       }}
     />

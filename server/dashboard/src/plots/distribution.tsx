@@ -1,6 +1,6 @@
 import uPlot from "uplot";
 import { useMemo } from "preact/hooks";
-import { Chart, axis, faded, percentTicks, powerTicks } from "../chart";
+import { Chart, axis, faded, logTicks, percentTicks } from "../chart";
 import type { Distribution } from "../documents";
 import { axisLabel, metricName, unitText } from "../names";
 import { number, percent, quantity } from "../numbers";
@@ -16,9 +16,10 @@ export function isHeavyTailed(distribution: Distribution): boolean {
   return (x[0] ?? 0) > 0 && high / low > 300;
 }
 
-/** An empirical distribution function with its band. */
+/** An empirical distribution function with its band, where that is narrower than everything. */
 export function DistributionPlot({ distribution, height = 260 }: { distribution: Distribution; height?: number }) {
-  const { x, f, band } = distribution;
+  const { x, f } = distribution;
+  const band = distribution.band !== null && distribution.band.half_width < 1 ? distribution.band : null;
   const isLog = isHeavyTailed(distribution);
   const data = useMemo<uPlot.AlignedData>(() => {
     const half = band?.half_width ?? 0;
@@ -36,7 +37,7 @@ export function DistributionPlot({ distribution, height = 260 }: { distribution:
         legend: { show: false },
         cursor: { drag: { x: false, y: false }, points: { show: false } },
         scales: { x: { time: false, distr: isLog ? 3 : 1 }, y: { range: [0, 1] } },
-        axes: [axis(palette, "bottom", { label: axisLabel(name, unit), ...(isLog ? { values: powerTicks } : {}) }), axis(palette, "left", { values: percentTicks })],
+        axes: [axis(palette, "bottom", { label: axisLabel(name, unit), ...(isLog ? logTicks : {}) }), axis(palette, "left", { values: percentTicks })],
         bands: band ? [{ series: [1, 2], fill: faded(palette.accent, 0.18) }] : [],
         series: [
           {},

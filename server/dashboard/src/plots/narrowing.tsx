@@ -1,6 +1,6 @@
 import uPlot from "uplot";
 import { useMemo } from "preact/hooks";
-import { Chart, axis, faded, percentTicks, powerTicks } from "../chart";
+import { Chart, axis, faded, logTicks, percentTicks } from "../chart";
 import type { StudyView } from "../documents";
 import { count, percentRange, percentOf } from "../numbers";
 
@@ -21,7 +21,7 @@ export function Narrowing({ view }: { view: StudyView }) {
         cursor: { drag: { x: false, y: false }, points: { show: false } },
         scales: { x: { time: false, distr: isLog ? 3 : 1, range: [narrowing.trials[0] ?? 1, Math.max(2, narrowing.trials[last] ?? 2)] }, y: { range: [0, 1] } },
         axes: [
-          axis(palette, "bottom", { label: "trials", ...(isLog ? { values: powerTicks } : {}) }),
+          axis(palette, "bottom", { label: "trials", ...(isLog ? logTicks : {}) }),
           axis(palette, "left", { values: percentTicks }),
         ],
         bands: [{ series: [1, 2], fill: faded(palette.accent, 0.2) }],

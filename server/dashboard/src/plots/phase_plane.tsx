@@ -18,6 +18,7 @@ export function speedRange(speeds: readonly number[]): [number, number] {
 /** Angle and velocity of the passive joint, with the set from which a contraction cycle may begin. */
 export function PhasePlane({ view, player, height }: { view: TrialView; player: Player; height: number }) {
   const { trajectory, phases, contraction_set: set } = view;
+  const { rate } = view.contraction;
   const point = useRef<{ dot: HTMLElement; chart: uPlot } | null>(null);
   const [xs, ys] = useMemo(() => {
     const goals = turns(view.references.q2_nearest, trajectory.q2);
@@ -36,7 +37,7 @@ export function PhasePlane({ view, player, height }: { view: TrialView; player: 
 
   return (
     <Chart
-      label="Phase plane of the passive joint: velocity over angle, with the contraction set shaded"
+      label={`Phase plane of the passive joint: velocity over angle, with the set shaded in which ${view.policy === "paper" ? "contraction cycles begin" : "the policy brakes"}`}
       height={height}
       data={data}
       version={`${view.index}`}
@@ -78,6 +79,14 @@ export function PhasePlane({ view, player, height }: { view: TrialView; player: 
                   context.closePath();
                   context.fill();
                   context.stroke();
+                  if (rate === null) continue;
+                  context.strokeStyle = palette.ink;
+                  context.setLineDash([4 * ratio(), 4 * ratio()]);
+                  context.beginPath();
+                  context.moveTo(x(goal), y(0));
+                  context.lineTo(x(entry), y(set.sigma * rate * Math.abs(set.q2_goal - set.q2_entry)));
+                  context.stroke();
+                  context.setLineDash([]);
                 }
                 context.lineJoin = "round";
                 context.lineWidth = 1.75 * ratio();

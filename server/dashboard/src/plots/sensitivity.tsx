@@ -12,7 +12,11 @@ interface Bar {
 }
 
 /** Sobol' indices as bars with their intervals: of the data at hand, or of a pick-freeze design where there is one. */
-export function SensitivityBars({ sensitivity }: { sensitivity: Sensitivity }) {
+export function SensitivityBars({ sensitivity, used }: {
+  sensitivity: Sensitivity;
+  /** Trials that count. */
+  used: number;
+}) {
   const { given_data: given, sobol_indices: sobol } = sensitivity;
   const [metric, setMetric] = useState("success");
   const outputs = sobol ? (["success", "settling_time", "end_time"] as const).map((name) => ({ metric: name as string, bars: sobolBars(sobol[name]), trials: sobol.rows[name] })) : given.outputs.map((output) => ({ metric: output.metric, bars: givenBars(output.inputs), trials: output.trials }));
@@ -25,7 +29,7 @@ export function SensitivityBars({ sensitivity }: { sensitivity: Sensitivity }) {
     <Card
       title="What drives it"
       actions={<Select label="Of" value={output.metric} options={outputs.map((each) => ({ value: each.metric, text: metricName(each.metric) }))} onChange={setMetric} />}
-      note={`Sobol' indices: the share of the variance that an input explains ${sobol ? "alone, and with others in total" : "alone"}. ${sobol ? `From ${count(output.trials)} rows` : `From ${count(output.trials)} trials`}; lines are ${number(100 * level)} % bootstrap intervals.${!sobol && given.exact ? " A full factorial: without sampling error." : ""}`}
+      note={`Sobol' indices: the share of the variance that an input explains ${sobol ? "alone (first order), and with others in total" : "alone (first order)"}. ${sobol ? `From ${count(output.trials)} rows` : `From ${sensitivity.of < used ? `the first ${count(sensitivity.of)} of ${count(used)}` : count(output.trials)} trials`}; lines are ${number(100 * level)} % bootstrap intervals.${!sobol && given.exact ? " A full factorial: without sampling error." : ""}`}
     >
       {empty ? <p class="muted">There is nothing to explain: too few trials, or all ended alike.</p> : (
         <table class="bars">
@@ -34,9 +38,9 @@ export function SensitivityBars({ sensitivity }: { sensitivity: Sensitivity }) {
           <tbody>
             {bars.map((bar) => bar.rows.map((row, k) => (
               <tr key={`${bar.input} ${row.name}`} class={k > 0 ? "second" : ""}>
-                <th scope="row">{k === 0 ? <span title={bar.input}>{symbol(bar.input)}</span> : null}<span class="muted small">{bar.rows.length > 1 ? ` ${row.name}` : ""}</span></th>
+                <th scope="row"><span class={k === 0 ? "" : "unseen"} title={bar.input}>{symbol(bar.input)}</span>{bar.rows.length > 1 && <span class="muted small bar-kind"> {row.name}</span>}</th>
                 <td><IndexBar value={row.value} low={row.low} high={row.high} /></td>
-                <td class="right">{row.value === null ? none : number(Math.round(1000 * row.value) / 1000, 3)}</td>
+                <td class="right">{row.value === null ? none : row.value.toFixed(3).replace("-", "−")}</td>
               </tr>
             )))}
           </tbody>
@@ -56,7 +60,7 @@ function sobolBars(indices: NonNullable<Sensitivity["sobol_indices"]>["success"]
   return indices.map((each) => ({
     input: each.input,
     rows: [
-      { name: "first order", value: each.first_order, low: each.ci_low, high: each.ci_high },
+      { name: "alone", value: each.first_order, low: each.ci_low, high: each.ci_high },
       { name: "total", value: each.total, low: each.total_ci_low, high: each.total_ci_high },
     ],
   }));

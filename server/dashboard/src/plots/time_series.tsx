@@ -2,7 +2,7 @@
 import uPlot from "uplot";
 import { useEffect, useMemo, useRef } from "preact/hooks";
 import { Chart, axis, drawInside, faded, ratio } from "../chart";
-import type { TrialView } from "../documents";
+import type { PhaseKind, TrialView } from "../documents";
 import { number } from "../numbers";
 import { phaseShort, phaseWords } from "../names";
 import type { Player } from "../player";
@@ -70,10 +70,11 @@ export function TimeSeries({ view, column, player, height, isNamed, isLast }: {
       data={data}
       version={`${column} ${view.index}`}
       onChart={put}
+      canZoom
       build={(palette) => ({
         legend: { show: false },
         cursor: { sync: { key: "trial" }, drag: { x: true, y: false }, points: { show: true, size: 7 }, y: false },
-        padding: [8, 10, 0, 0],
+        padding: [8, 16, 0, 0],
         scales: { x: { time: false }, y: { range: (_u, low, high) => withRoom(Math.min(low, ...levels), Math.max(high, ...levels), isNamed ? 0.2 : 0.08) } },
         axes: [
           axis(palette, "bottom", isLast ? { label: "t [s]" } : { values: (ticks) => ticks.map(() => ""), size: 8 }),
@@ -81,8 +82,9 @@ export function TimeSeries({ view, column, player, height, isNamed, isLast }: {
         ],
         series: [{}, { stroke: palette.accent, width: 1.75, points: { show: false } }],
         hooks: {
-          drawClear: [(u) => shadePhases(u, palette, view, isNamed)],
-          drawAxes: [(u) => drawReferences(u, palette, levels)],
+          drawClear: [(u) => shadePhases(u, palette, view)],
+          // Over the grid, which would strike the names through.
+          drawAxes: [(u) => drawReferences(u, palette, levels), ...(isNamed ? [(u: uPlot) => namePhases(u, palette, view)] : [])],
           setScale: [() => place(player.t)],
         },
       })}
@@ -127,22 +129,33 @@ function drawReferences(u: uPlot, palette: Palette, levels: readonly number[]): 
   });
 }
 
-function shadePhases(u: uPlot, palette: Palette, { phases }: TrialView, isNamed: boolean): void {
+/** Calls back with the phases that are in sight, and where they begin and end on the canvas. */
+function eachPhase(u: uPlot, { phases }: TrialView, draw: (kind: PhaseKind, left: number, right: number) => void): void {
+  phases.kind.forEach((kind, k) => {
+    const left = Math.max(u.bbox.left, u.valToPos(phases.start[k] ?? 0, "x", true));
+    const right = Math.min(u.bbox.left + u.bbox.width, u.valToPos(phases.end[k] ?? 0, "x", true));
+    if (right > left) draw(kind, left, right);
+  });
+}
+
+function shadePhases(u: uPlot, palette: Palette, view: TrialView): void {
+  drawInside(u, (context) => {
+    eachPhase(u, view, (kind, left, right) => {
+      context.fillStyle = faded(palette.phase[kind], palette.name === "dark" ? 0.2 : 0.16);
+      context.fillRect(left, u.bbox.top, right - left, u.bbox.height);
+    });
+  });
+}
+
+function namePhases(u: uPlot, palette: Palette, view: TrialView): void {
   drawInside(u, (context) => {
     context.font = `${11 * ratio()}px system-ui, sans-serif`;
     context.textBaseline = "top";
     context.textAlign = "center";
-    phases.kind.forEach((kind, k) => {
-      const left = Math.max(u.bbox.left, u.valToPos(phases.start[k] ?? 0, "x", true));
-      const right = Math.min(u.bbox.left + u.bbox.width, u.valToPos(phases.end[k] ?? 0, "x", true));
-      if (right <= left) return;
-      context.fillStyle = faded(palette.phase[kind], palette.name === "dark" ? 0.2 : 0.16);
-      context.fillRect(left, u.bbox.top, right - left, u.bbox.height);
-      if (!isNamed) return;
-      const name = [phaseWords[kind], ...phaseShort[kind]].find((each) => context.measureText(each).width + 4 * ratio() < right - left);
-      if (name === undefined) return;
-      context.fillStyle = palette.muted;
-      context.fillText(name, (left + right) / 2, u.bbox.top + 4 * ratio());
+    context.fillStyle = palette.muted;
+    eachPhase(u, view, (kind, left, right) => {
+      const name = [phaseWords[kind], ...phaseShort[kind]].find((each) => context.measureText(each).width + 6 * ratio() < right - left);
+      if (name !== undefined) context.fillText(name, (left + right) / 2, u.bbox.top + 4 * ratio());
     });
   });
 }

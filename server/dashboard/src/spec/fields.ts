@@ -61,7 +61,7 @@ function fieldsAt(of: Schema, path: Path): Field[] {
     : whole.type === "number" ? "number"
     : whole.type === "string" ? "text"
     : null;
-  if (kind === null) return []; // lists: in the JSON
+  if (kind === null) return []; // lists have editors of their own, or are in the JSON
   return [{ path, kind, description, unit: unit || "1", default: whole.default, choices: (whole.enum ?? []).map(String), canBeRelative: refersTo(of, "plant_value") }];
 }
 
@@ -76,6 +76,7 @@ const titles: readonly [key: string, title: string, isOpen: boolean][] = [
   ["integrator", "Integrator", false],
   ["retain", "Retained trajectories", false],
   ["audit", "Audit", false],
+  ["stop", "When to stop", false],
   ["intervals", "Intervals", false],
 ];
 
@@ -105,6 +106,9 @@ export const samplingMethods = [
 
 export const rateNames: readonly string[] = (root.$defs.rate_name?.enum ?? []).map(String);
 export const metricNames: readonly string[] = (root.$defs.metric_name?.enum ?? []).map(String);
+
+/** Rates that a stopping rule can wait for, and metrics. */
+export const goalMetrics: readonly string[] = (root.$defs.precision_goal?.properties?.metric?.enum ?? []).map(String);
 
 /** Every place that a field of the form stands for. */
 export const allFields: readonly Field[] = [nameField, horizonField, ...sections.flatMap((section) => section.fields)];

@@ -1,9 +1,11 @@
 import type { ComponentChildren } from "preact";
 import { useId } from "preact/hooks";
-import { horizonField, nameField, samplingMethods, sections } from "./fields";
+import { type Section, horizonField, nameField, samplingMethods, sections } from "./fields";
+import { CorrelationEditor, correlationPath } from "./correlation_editor";
 import { GatesEditor } from "./gates_editor";
+import { GoalsEditor } from "./goals_editor";
 import { type Edited, FieldEditor, Mistakes, ReadInput, mistakesAt } from "./inputs";
-import { isObject } from "./pointer";
+import { type Path, isObject, isWithin } from "./pointer";
 import { parseNumber } from "./value";
 
 /** The spec as a form. */
@@ -15,24 +17,32 @@ export function SpecForm({ edited }: { edited: Edited }) {
         <Sampling edited={edited} />
         <FieldEditor field={horizonField} edited={edited} name="Horizon" />
       </div>
-      {sections.slice(0, 3).map((section) => <FormSection key={section.key} sectionKey={section.key} title={section.title} description={section.description} isOpen={section.isOpen} edited={edited}>
-        {section.fields.map((field) => <FieldEditor key={field.path.join(".")} field={field} edited={edited} />)}
-      </FormSection>)}
-      <FormSection sectionKey="gates" title="Gates" description="What the statistics must show: pass, fail or inconclusive." isOpen={false} edited={edited}>
+      {sections.slice(0, 3).map((section) => <SchemaSection key={section.key} section={section} edited={edited} />)}
+      <FormSection path={correlationPath} title="Correlations" description="Which drawn inputs go together, by a Gaussian copula: each keeps its distribution." isOpen={false} edited={edited}>
+        <CorrelationEditor edited={edited} />
+      </FormSection>
+      <FormSection path={["gates"]} title="Gates" description="What the statistics must show: pass, fail or inconclusive." isOpen={false} edited={edited}>
         <GatesEditor edited={edited} />
       </FormSection>
-      {sections.slice(3).map((section) => <FormSection key={section.key} sectionKey={section.key} title={section.title} description={section.description} isOpen={section.isOpen} edited={edited}>
-        {section.fields.map((field) => <FieldEditor key={field.path.join(".")} field={field} edited={edited} />)}
-      </FormSection>)}
-      <p class="note">Stopping rules, correlations, listed trials and the baseline's test are written in the JSON.</p>
+      {sections.slice(3).map((section) => <SchemaSection key={section.key} section={section} edited={edited} />)}
+      <p class="note">Listed trials and the baseline's test are written in the JSON.</p>
     </div>
   );
 }
 
-function FormSection({ sectionKey, title, description, isOpen, edited, children }: { sectionKey: string; title: string; description: string; isOpen: boolean; edited: Edited; children: ComponentChildren }) {
-  const value = edited.get([sectionKey]);
+function SchemaSection({ section, edited }: { section: Section; edited: Edited }) {
+  return (
+    <FormSection path={[section.key]} title={section.title} description={section.description} isOpen={section.isOpen} edited={edited}>
+      {section.key === "stop" && <GoalsEditor edited={edited} />}
+      {section.fields.map((field) => <FieldEditor key={field.path.join(".")} field={field} edited={edited} />)}
+    </FormSection>
+  );
+}
+
+function FormSection({ path, title, description, isOpen, edited, children }: { path: Path; title: string; description: string; isOpen: boolean; edited: Edited; children: ComponentChildren }) {
+  const value = edited.get(path);
   const size = isObject(value) ? Object.keys(value).length : Array.isArray(value) ? value.length : value === undefined ? 0 : 1;
-  const mistakes = mistakesAt(edited.mistakes, [sectionKey]);
+  const mistakes = mistakesAt(edited.mistakes, path);
   return (
     <details class="form-section" open={isOpen || size > 0 || mistakes.length > 0}>
       <summary><span>{title}</span>{size > 0 && <span class="badge">{size} set</span>}{mistakes.length > 0 && <span class="badge wrong">{mistakes.length} wrong</span>}</summary>
@@ -48,7 +58,7 @@ function Sampling({ edited }: { edited: Edited }) {
   const chosen = typeof method === "string" ? method : "monte_carlo";
   const trials = edited.get(["sampling", "trials"]);
   const seed = edited.get(["sampling", "seed"]);
-  const mistakes = mistakesAt(edited.mistakes, ["sampling"]);
+  const mistakes = mistakesAt(edited.mistakes, ["sampling"]).filter(({ pointer }) => !isWithin(pointer, correlationPath));
   const whole = (text: string) => {
     if (text.trim() === "") return undefined;
     const value = parseNumber(text.replace(/,/g, ""));

@@ -65,6 +65,7 @@ export function ReadInput<Value>({ label, value, show, read, onValue, placeholde
 }
 
 const plain = (value: number) => String(value);
+const plainText = (value: Json | undefined) => (typeof value === "string" ? value : JSON.stringify(value ?? ""));
 const orNothing = <Value,>(read: (text: string) => Value | null) => (text: string) => (text.trim() === "" ? undefined : read(text));
 
 function wholeNumber(text: string): number | null {
@@ -82,7 +83,7 @@ export function FieldEditor({ field, edited, name }: { field: Field; edited: Edi
   const title = name ?? (field.kind === "value" || ["nominal", "goal"].includes(field.path[0] ?? "") ? symbol(input.replace(/^nominal/, "plant").replace(/^goal/, "plant")) : words(field.path));
   const invalid = mistakes.length > 0;
   const set = (next: Json | undefined) => edited.set(field.path, next);
-  const placeholder = field.default === undefined ? "" : typeof field.default === "number" ? number(field.default, 6) : String(field.default);
+  const placeholder = field.default === undefined ? "" : typeof field.default === "number" ? number(field.default, 6) : plainText(field.default);
   let control: ComponentChildren;
   switch (field.kind) {
     case "value":
@@ -101,7 +102,7 @@ export function FieldEditor({ field, edited, name }: { field: Field; edited: Edi
     case "choice":
       control = (
         <select aria-label={title} aria-invalid={invalid} aria-describedby={described} value={typeof value === "string" ? value : ""} onChange={(event) => set(event.currentTarget.value || undefined)}>
-          <option value="">{String(field.default).replace(/_/g, " ")} (default)</option>
+          <option value="">{plainText(field.default).replace(/_/g, " ")} (default)</option>
           {field.choices.map((choice) => <option key={choice} value={choice}>{choice.replace(/_/g, " ")}</option>)}
         </select>
       );

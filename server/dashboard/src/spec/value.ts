@@ -106,7 +106,7 @@ const round = (value: number) => Number(value.toPrecision(6));
 export function centre(value: Json | undefined, otherwise: number): number {
   const kind = kindOf(value);
   const parts = partsOf(value, kind);
-  const at = (place: string) => (isNumber(parts[place]) ? (parts[place] as number) : undefined);
+  const at = (place: string) => (isNumber(parts[place]) ? parts[place] : undefined);
   const list = parts["values[]"];
   const low = at("low");
   const high = at("high");

@@ -50,6 +50,13 @@ function StudyChoice({ label, side, value, studies, onChange }: { label: string;
   );
 }
 
+/** A value of a canonical spec; of what only the other spec has, nothing. */
+function SpecValue({ value }: { value: unknown }) {
+  return value === null || value === undefined ? <span class="muted" title="Has no meaning in this study">–</span> : <code>{JSON.stringify(value)}</code>;
+}
+
+const pValue = (p: number) => (p < 1e-300 ? "below 10⁻³⁰⁰" : number(p, 3));
+
 function Chosen({ a, b }: { a: string; b: string }) {
   const { source } = usePage();
   const loaded = useDocument<ComparisonView>(`${a} ${b}`, (signal) => source.comparison(a, b, signal));
@@ -71,8 +78,8 @@ function Comparison({ view }: { view: ComparisonView }) {
         <dl class="figures">
           <Figure name="A"><a href={studyLink(comparison.a.id)}>{percent(rate.a, 2)}</a></Figure>
           <Figure name="B"><a href={studyLink(comparison.b.id)}>{percent(rate.b, 2)}</a></Figure>
-          <Figure name="McNemar's exact p">{mcnemar ? number(mcnemar.p_value, 3) : none}</Figure>
-          {mcnemar && mcnemar.holm_p_value !== null && <Figure name="Holm">{number(mcnemar.holm_p_value, 3)}</Figure>}
+          <Figure name="McNemar's exact p">{mcnemar ? pValue(mcnemar.p_value) : none}</Figure>
+          {mcnemar && mcnemar.holm_p_value !== null && <Figure name="Holm">{pValue(mcnemar.holm_p_value)}</Figure>}
         </dl>
       </Card>
       <Card title="Pairs">
@@ -82,7 +89,7 @@ function Comparison({ view }: { view: ComparisonView }) {
         {comparison.differences.length === 0 ? <p class="muted">Nothing that decides an outcome.</p> : (
           <div class="scroll"><table class="table">
             <thead><tr><th scope="col">Place</th><th scope="col">A</th><th scope="col">B</th></tr></thead>
-            <tbody>{comparison.differences.map((each) => <tr key={each.pointer}><th scope="row"><code>{each.pointer}</code></th><td><code>{JSON.stringify(each.a)}</code></td><td><code>{JSON.stringify(each.b)}</code></td></tr>)}</tbody>
+            <tbody>{comparison.differences.map((each) => <tr key={each.pointer}><th scope="row"><code>{each.pointer}</code></th><td><SpecValue value={each.a} /></td><td><SpecValue value={each.b} /></td></tr>)}</tbody>
           </table></div>
         )}
       </Card>
@@ -152,7 +159,7 @@ function Discordant({ view }: { view: ComparisonView }) {
               <Select label="Up" value={y} options={options} onChange={(next) => { if (next === x) setX(y); setY(next); }} />
             </div>
             <Plane x={along(x, points.x)} y={along(y, points.y)} points={points} height={340} onPick={(k) => go({ view: "trial", id: points.status[k] === "converged" ? comparison.a.id : comparison.b.id, index: points.index[k] ?? 0, t: null })} />
-            <p class="legend"><StatusName status="converged" /> in B alone <span class="gap" /> <StatusName status="timeout" /> or otherwise failed in B, converged in A</p>
+            <p class="legend"><span><StatusName status="converged" /> in B alone</span><span><StatusName status="timeout" /> or failed otherwise in B, converged in A</span></p>
           </div>
         )}
         <div class="scroll tall" tabIndex={0} role="group" aria-label="Discordant trials">

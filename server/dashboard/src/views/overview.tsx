@@ -1,7 +1,8 @@
 import { useState } from "preact/hooks";
 import type { Gate, PrecisionGoal, Sample, StudyView, Summary } from "../documents";
 import { metricName, metricUnit, symbol } from "../names";
-import { count, number, percent, percentOf, percentRange } from "../numbers";
+import { count, number, percent, percentOf, percentRange, quantity } from "../numbers";
+import { usePage } from "../page_context";
 import { Card, Choice, Figure, Select } from "../parts";
 import { Cycles } from "../plots/cycles";
 import { DistributionPlot } from "../plots/distribution";
@@ -22,21 +23,34 @@ export function Overview({ view }: { view: StudyView }) {
         <p class="interval">{percentRange(rate.ci_low, rate.ci_high)}<span class="muted"> · {number(100 * rate.level)} % interval ({methodWords[rate.method]})</span></p>
         <Outcomes outcomes={summary.outcomes} />
       </Card>
-      <Card title="How it narrowed" note={`Of the first ${count(view.narrowing.of)} trials. ${view.narrowing.at_once ? "The intervals hold at all numbers of trials together." : "Each interval holds by itself, not all together."}`}>
+      {view.narrowing.of > 1 ? <Card title="How it narrowed" note={`Of the first ${count(view.narrowing.of)} trials. ${view.narrowing.at_once ? "The intervals hold at all numbers of trials together." : "Each interval holds by itself, not all together."}`}>
         <Narrowing view={view} />
-      </Card>
+      </Card> : <SingleTrial view={view} />}
       {summary.gates.length > 0 && <Gates gates={summary.gates} />}
       {view.sweeps && <div class="wide"><HeatMap sweeps={view.sweeps} /></div>}
-      <Distributions view={view} />
-      <Card title="Contraction cycles" note="Of all trials.">
-        <p class="legend"><span class="swatch fill-converged" /> converged <span class="swatch fill-timeout" /> others</p>
-        <Cycles cycles={view.cycles} />
-      </Card>
+      {view.trials.used > 1 && <Distributions view={view} />}
+      {view.trials.used > 1 && (
+        <Card title="Contraction cycles" note="Of all trials." actions={<p class="legend"><span><span class="swatch fill-converged" /> converged</span><span><span class="swatch fill-timeout" /> others</span></p>}>
+          <Cycles cycles={view.cycles} />
+        </Card>
+      )}
       <Metrics summary={summary} />
       {summary.stop && <Stop stop={summary.stop} />}
       <Audit audit={summary.audit} id={summary.study.id} />
       <SpecCard spec={view.spec} />
     </div>
+  );
+}
+
+/** Where there is one trial, or one so far: nothing narrows and nothing is distributed. */
+function SingleTrial({ view }: { view: StudyView }) {
+  const [index] = view.sample.index;
+  const { source } = usePage();
+  return (
+    <Card title={view.trials.requested > 1 ? "The first trial" : "The trial"}>
+      <p class="muted">{view.trials.requested > 1 ? "How the rate narrows shows from the second trial on." : "This study has one trial: its course tells more than its rate."}</p>
+      {index !== undefined && source.has(index) && <p class="see-trial"><a class="button primary" href={trialLink(view.summary.study.id, index)}>See trial {index}</a></p>}
+    </Card>
   );
 }
 
@@ -55,7 +69,7 @@ function Distributions({ view }: { view: StudyView }) {
     <Card
       title="Distribution"
       actions={<Select label="Metric" isHidden value={distribution.metric} options={view.distributions.map((each) => ({ value: each.metric, text: metricName(each.metric) }))} onChange={setMetric} />}
-      note={`${whose[0]?.toUpperCase()}${whose.slice(1)} of the ${count(trials)} trials that have one. ${band ? `The whole curve lies within ± ${percent(band.half_width)} at level ${number(100 * band.level)} %.` : (distribution.band_note ?? "")}`}
+      note={`${whose[0]?.toUpperCase()}${whose.slice(1)} of the ${count(trials)} trials that have one. ${band && band.half_width < 1 ? `The whole curve lies within ± ${percent(band.half_width)} at level ${number(100 * band.level)} %.` : distribution.band_note ? `No band: ${distribution.band_note}.` : ""}`}
     >
       <DistributionPlot distribution={distribution} height={248} />
     </Card>
@@ -142,13 +156,13 @@ function Audit({ audit, id }: { audit: Summary["audit"]; id: string }) {
   }
   const { settling_time_difference: difference } = audit;
   return (
-    <Card title="Audit" note={`Computed again by SUNDIALS at tolerance ${number(audit.tolerance)}: same status, cycles and swings.`}>
+    <Card title="Audit" note={`Computed again by SUNDIALS at tolerance ${number(audit.tolerance)}: the same status, cycles and swings${difference ? ", and settling times so close" : ""}.`}>
       <p class="big small">{count(audit.agree)} of {count(audit.trials)} agree</p>
       {difference && (
         <dl class="figures">
-          <Figure name="settling times differ by, median">{number(difference.median, 2)} s</Figure>
-          <Figure name="99 %">{number(difference.p99, 2)} s</Figure>
-          <Figure name="at most">{number(difference.max, 2)} s</Figure>
+          <Figure name="median difference">{quantity(difference.median, "s", 2)}</Figure>
+          <Figure name="99 % of them">{quantity(difference.p99, "s", 2)}</Figure>
+          <Figure name="at most">{quantity(difference.max, "s", 2)}</Figure>
         </dl>
       )}
       {audit.disagree.length > 0 && <p>Not so: {audit.disagree.slice(0, 20).map((index) => <a key={index} class="listed" href={trialLink(id, index)}>trial {index}</a>)}</p>}

@@ -50,12 +50,12 @@ export function StudyPage({ id, tab, query }: { id: string; tab: Tab; query: Rea
       </nav>
       {state?.failure && <ProblemBoxOf state={state} />}
       {loaded.problem && loaded.value === null && state !== null && isActive(state) ? (
-        <Empty title="No trial has finished yet"><p>The first figures come with the first trials.</p></Empty>
+        <NoTrials state={state} />
       ) : (
         <Shown loaded={loaded} height={640}>
           {(view) =>
             !hasTrials ? (
-              <Empty title="No trial has finished yet"><p>The first figures come with the first trials.</p></Empty>
+              <NoTrials state={state} />
             ) : tab === "overview" ? <Overview view={view} /> : tab === "why" ? <WhyTab view={view} query={query} /> : <TrialsTab view={view} query={query} />
           }
         </Shown>
@@ -63,6 +63,13 @@ export function StudyPage({ id, tab, query }: { id: string; tab: Tab; query: Rea
       {problem && !problem.isLost && <ProblemBox problem={problem} />}
     </div>
   );
+}
+
+function NoTrials({ state }: { state: StudyState | null }) {
+  if (state !== null && !isActive(state)) {
+    return <Empty title={`It ${state.status === "cancelled" ? "was cancelled" : "ended"} before a trial finished`}><p>The same spec posted again runs it.</p></Empty>;
+  }
+  return <Empty title="No trial has finished yet"><p>{state?.status === "queued" ? "It waits for its turn." : "The first figures come with the first trials."}</p></Empty>;
 }
 
 function ProblemBoxOf({ state }: { state: StudyState }) {
@@ -88,7 +95,7 @@ function StudyHead({ id, name, state, view, onChange }: { id: string; name: stri
         <h1>{name}</h1>
         <p class="facts">
           {state && <StateChip state={state.status} />}
-          <span>{count(completed)}{completed !== requested && ` of ${count(requested)}`} trials</span>
+          <span>{count(completed)}{completed !== requested && ` of ${count(requested)}`} {requested === 1 ? "trial" : "trials"}</span>
           {summary && <span>seed {summary.study.seed}</span>}
           {summary && <span>engine {summary.study.engine_version}</span>}
           {!running && summary?.performance.trials_per_s && <span>{number(summary.performance.trials_per_s, 3)} trials/s</span>}

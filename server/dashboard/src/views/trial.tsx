@@ -1,8 +1,8 @@
 import { useEffect, useMemo, useState } from "preact/hooks";
-import type { TrialView } from "../documents";
+import type { StudyState, TrialView } from "../documents";
 import { failedTrials } from "../failed_trials";
 import { meaning, statusMeaning, symbol, unitText } from "../names";
-import { number, quantity } from "../numbers";
+import { counted, number, quantity } from "../numbers";
 import { toProblem, useDocument, usePage } from "../page_context";
 import { Card, Empty, Figure, Shown, StatusName } from "../parts";
 import { Player } from "../player";
@@ -49,9 +49,9 @@ function Outcome({ view }: { view: TrialView }) {
     <>
       <span class={`outcome status-${outcome.status}`} title={statusMeaning[outcome.status]}><StatusName status={outcome.status} /></span>
       <span>after {quantity(outcome.end_time, "s", 5)}</span>
-      <span>{outcome.cycles} contraction cycles</span>
-      <span>{outcome.swings} swings</span>
-      <span>{outcome.alignments} alignments</span>
+      <span>{counted(outcome.cycles, "contraction cycle")}</span>
+      <span>{counted(outcome.swings, "swing")}</span>
+      <span>{counted(outcome.alignments, "alignment")}</span>
     </>
   );
 }
@@ -60,10 +60,12 @@ function Outcome({ view }: { view: TrialView }) {
 function Neighbours({ id, index }: { id: string; index: number }) {
   const { source } = usePage();
   const failed = failedTrials(id);
+  const state = useDocument<StudyState>(id, (signal) => source.state(id, signal));
+  const end = state.value?.progress.requested ?? Infinity;
   const before = [...failed].reverse().find((each) => each < index && source.has(each));
   const after = failed.find((each) => each > index && source.has(each));
   const link = (to: number | undefined, text: string) =>
-    to !== undefined && to >= 0 && source.has(to) ? <a class="button quiet" href={trialLink(id, to)}>{text}</a> : <button type="button" class="button quiet" disabled>{text}</button>;
+    to !== undefined && to >= 0 && to < end && source.has(to) ? <a class="button quiet" href={trialLink(id, to)}>{text}</a> : <button type="button" class="button quiet" disabled>{text}</button>;
   return (
     <div class="page-actions">
       {link(index - 1, "← Previous")}
@@ -103,7 +105,7 @@ function Trial({ view, start }: { view: TrialView; start: number | null }) {
           <TimeSeries view={view} column={columns[1]} player={player} height={196} isNamed={false} isLast />
         </Card>
       ))}
-      <Card class="figure-card" title="Phase plane of the passive joint" actions={<span class="muted small">shaded: the contraction set · circle: the goal</span>}>
+      <Card class="figure-card" title="Phase plane of the passive joint" actions={<span class="muted small">{view.policy === "paper" ? "shaded: the contraction set" : "shaded: where the policy brakes · dashed: its aim"} · circle: the goal</span>}>
         <PhasePlane view={view} player={player} height={354} />
       </Card>
       <Card class="wide" title="Error per contraction cycle" note={contractionNote(view)} actions={<p class="legend"><span class="line-sample" /> happened <span class="line-sample dashed" /> predicted</p>}>
@@ -118,16 +120,21 @@ function Trial({ view, start }: { view: TrialView; start: number | null }) {
       <p class="note wide">
         {thinned ? `${trajectory.t.length.toLocaleString("en")} of ${trajectory.of.toLocaleString("en")} points are drawn; none left out lies farther than ${number(100 * trajectory.largest_deviation, 2)} % of its axis from the line. ` : ""}
         {view.phases.of > view.phases.kind.length ? `The first ${view.phases.kind.length} of ${view.phases.of} phases are shaded. ` : ""}
-        Drag over a chart to zoom, double-click to see all again, click to go to a time.
+        {isTouched() ? "Two fingers zoom into a chart over time, one moves along it, a double tap shows all again; tap to go to a time." : "Drag over a chart to zoom, double-click to see all again, click to go to a time."}
       </p>
     </div>
   );
 }
 
+const isTouched = () => matchMedia("(pointer: coarse)").matches;
+
 function contractionNote(view: TrialView): string {
-  const { eta1, eta2, start } = view.contraction;
+  const { eta1, eta2, rate, start } = view.contraction;
   if (start.length === 0) return "";
-  return `Predicted (14), (15): a cycle leaves η₁ = ${number(eta1)} of the distance to go and η₂ = ${number(eta2)} of the speed. Hollow: beyond the goal, or away from it. Short bars: ε, whose tolerance ends the trial.`;
+  const predicted = rate === null
+    ? `Predicted (14), (15): a cycle leaves η₁ = ${number(eta1)} of the distance to go and η₂ = ${number(eta2)} of the speed.`
+    : `Predicted: what the robust policy aims at with a cycle that brakes, and the alignment where one follows: a speed of ${number(rate)} 1/s times the distance to go.`;
+  return `${predicted} Hollow: beyond the goal, or away from it. Short bars: ε, whose tolerance ends the trial.`;
 }
 
 function OutcomeFigures({ view }: { view: TrialView }) {
@@ -143,7 +150,7 @@ function OutcomeFigures({ view }: { view: TrialView }) {
       <Figure name="goal q₁">{quantity(references.q1, "m")}</Figure>
       <Figure name="goal q₂">{quantity(references.q2, "rad")}</Figure>
       <Figure name="horizon">{quantity(view.horizon, "s")}</Figure>
-      <Figure name="realignment">{view.realignment.replace("_", " ")}</Figure>
+      {view.policy === "paper" ? <Figure name="realignment">{view.realignment.replace("_", " ")}</Figure> : <Figure name="policy">{view.policy}</Figure>}
     </dl>
   );
 }
@@ -190,7 +197,7 @@ function ParameterList({ parameters }: { parameters: TrialView["parameters"] }) 
     <ul class="parameters">
       {parameters.map((each) => (
         <li key={each.input} title={meaning(each.input)}>
-          <span>{symbol(each.input)} <code class="id">{each.input}</code></span>
+          <span>{symbol(each.input)}<code class="id">{each.input}</code></span>
           <strong>{each.value === null ? "no limit" : number(each.value, 6)}{each.unit !== "1" && <span class="muted"> {unitText(each.unit)}</span>}</strong>
         </li>
       ))}

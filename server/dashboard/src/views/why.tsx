@@ -30,7 +30,7 @@ export function WhyTab({ view, query }: { view: StudyView; query: Readonly<Recor
   return (
     <div class="grid why">
       {x !== y && <MapCard view={view} x={x} y={y} names={names} onChoose={choose} shownAs={query.as} />}
-      <SensitivityBars sensitivity={view.sensitivity} />
+      <SensitivityBars sensitivity={view.sensitivity} used={view.trials.used} />
       <Card class="wide" title="Success along each input" note={`Each bin's own ${Math.round(100 * (view.marginals[0]?.level ?? 0.95))} % interval, over all values of the other inputs.`}>
         <div class="small-multiples">
           {ranked.map((input) => {
@@ -92,7 +92,7 @@ function MapCard({ view, x, y, names, onChoose, shownAs }: {
             {statuses.filter((status) => view.summary.outcomes[status] > 0).map((status) => <StatusName key={status} status={status} />)}
           </p>
           <p class="note">
-            {isWhole ? `All ${count(view.sample.of)} trials.` : `${count(view.sample.index.length)} of ${count(view.sample.of)} trials, chosen at random.`} {source.report ? "Those in rings are in this report: click one to see what happened in it." : "Click one to see what happened in it."}
+            {isWhole ? `All ${count(view.sample.of)} ${view.trials.used < view.trials.finished ? "independent " : ""}trials.` : `${count(view.sample.index.length)} of ${count(view.sample.of)} trials, chosen at random.`} {source.report ? "Those in rings are in this report: click one to see what happened in it." : "Click one to see what happened in it."}
           </p>
         </>
       ) : isWhole && axes[0] && axes[1] ? (
