@@ -65,6 +65,11 @@ void write_views(const std::filesystem::path& directory, const Study& swept, con
     const Trajectory trajectory = replay_for_view(parameters, ran.study.integrator);
     write_text("trial_view.json", trial_view_json(trial_view(ran.study, row, parameters, trajectory, 100)));
   }
+  const Study robust = decode_study(R"({"controller": {"policy": "robust"}})", {});
+  const TrialParameters of_robust = Plan(robust).parameters(0);
+  write_text("robust_trial_view.json",
+             trial_view_json(trial_view(robust, 0, of_robust, replay_for_view(of_robust, robust.integrator), 100)));
+
   ReportOptions options;
   options.file = "of <no> consequence.h5";
   options.created = "2001-05-21T00:00:00Z";

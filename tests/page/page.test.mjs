@@ -2,7 +2,7 @@
 //
 //   STEERSTAT=build/ci/steerstat node --test page.test.mjs
 import assert from "node:assert/strict";
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { after, before, describe, it } from "node:test";
@@ -28,6 +28,9 @@ after(async () => {
   rmSync(folder, { recursive: true, force: true });
 });
 
+/** So many trials of combined.json as this machine runs in so many seconds, whatever machine it is. */
+let trialsIn = () => 0;
+
 const chip = (page, text) => page.locator(".page-head .chip", { hasText: text });
 
 describe("The page", { concurrency: false }, () => {
@@ -39,6 +42,7 @@ describe("The page", { concurrency: false }, () => {
     await page.goto(`${service.url}${fragment}`);
   };
   before(async () => ({ page, faults } = await openPage(browser)));
+  const settled = () => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   after(() => assert.deepEqual(faults, []));
 
   it("sends a policy that allows nothing from elsewhere, and says so where there is no study", async () => {
@@ -80,35 +84,63 @@ describe("The page", { concurrency: false }, () => {
     await json.fill(text);
   });
 
+  it("has fields for stopping rules and correlations, whose mistakes stand at their rows", async () => {
+    await show("#/new");
+    const json = page.getByLabel("Spec as JSON");
+    const spec = async () => JSON.parse(await json.inputValue());
+    await page.locator("summary", { hasText: "When to stop" }).click();
+    await page.getByRole("button", { name: "Add a goal" }).click();
+    await page.getByLabel("Goal 1: metric").selectOption("settling_time");
+    await page.getByLabel("Goal 1: kind of width").selectOption("relative_half_width");
+    const goal = page.locator('[data-pointer="/stop/until/0"]');
+    await goal.getByLabel("quantile").fill("0.9");
+    await goal.getByLabel("at most").fill("0.05");
+    await page.locator('[data-pointer="/stop/check_every"] input').fill("500");
+    assert.deepEqual((await spec()).stop, { until: [{ metric: "settling_time", quantile: 0.9, relative_half_width: 0.05 }], check_every: 500 });
+    await page.locator("summary", { hasText: "Correlations" }).click();
+    await page.getByRole("button", { name: "Add a correlation" }).click();
+    const pair = page.locator('[data-pointer="/sampling/correlation/0"]');
+    await pair.getByLabel("Correlation 1: other input").selectOption("plant.f2");
+    await pair.getByLabel("correlation", { exact: true }).fill("1.5");
+    assert.deepEqual((await spec()).sampling.correlation, [["plant.m1", "plant.f2", 1.5]]);
+    await page.getByRole("button", { name: "Run the study" }).click();
+    await pair.locator(".mistakes").waitFor();
+    await expectAccessible(page, "a refused correlation");
+    await page.getByRole("button", { name: "Take correlation 1 away" }).click();
+    await page.getByRole("button", { name: "Take goal 1 away" }).click();
+    assert.deepEqual(await spec(), combined);
+  });
+
   it("runs a study from the form and follows it to its end without anything jumping", async () => {
+    const probe = await service.run({ ...combined, name: "probe", sampling: { ...combined.sampling, trials: 20000, seed: 2 } });
+    const { trials_per_s: rate } = (await service.get(`v1/studies/${probe}/summary`)).performance;
+    trialsIn = (seconds) => Math.min(10_000_000, Math.max(20_000, 1000 * Math.round((seconds * rate) / 1000)));
+    ids.watchedTrials = trialsIn(8);
     await show("#/new");
     await page.locator('[data-pointer="/name"] input').fill("watched");
-    await page.getByLabel("Trials", { exact: true }).fill("300000");
+    await page.getByLabel("Trials", { exact: true }).fill(String(ids.watchedTrials));
+    await page.evaluate(() => {
+      globalThis.seen = new Set();
+      const look = () => globalThis.seen.add(document.querySelector(".head-progress [role=progressbar]")?.getAttribute("aria-valuenow") ?? "");
+      new MutationObserver(look).observe(document.body, { subtree: true, childList: true, attributes: true });
+    });
     await page.getByRole("button", { name: "Run the study" }).click();
     await page.getByRole("heading", { name: "watched" }).waitFor();
     ids.watched = /studies\/([0-9a-f]{16})/.exec(page.url())[1];
-    const seen = new Set();
-    const bar = page.locator(".head-progress [role=progressbar]");
-    let shifts = null;
-    for (const until = Date.now() + 240_000; Date.now() < until && (await chip(page, "done").count()) === 0; ) {
-      const share = await bar.getAttribute("aria-valuenow", { timeout: 200 }).catch(() => null);
-      if (share !== null) seen.add(Number(share));
-      if (shifts === null && (await page.locator(".headline .big").count()) > 0) shifts = await watchShifts(page);
-      await page.waitForTimeout(40);
-    }
-    await chip(page, "done").waitFor();
-    await page.getByText("300,000 trials", { exact: true }).waitFor();
-    assert.ok(seen.size >= 3, `progress was seen at ${[...seen].join(", ")} %`);
-    if (shifts !== null) {
-      const sum = await shifts();
-      assert.ok(sum < 0.05, `what was in sight moved by ${sum}`);
-    }
+    await page.locator(".headline .big").waitFor();
+    const shifts = await watchShifts(page);
+    await chip(page, "done").waitFor({ timeout: 240_000 });
+    await page.getByText(`${ids.watchedTrials.toLocaleString("en")} trials`, { exact: true }).waitFor();
+    const seen = (await page.evaluate(() => [...globalThis.seen])).filter((share) => share !== "");
+    assert.ok(seen.length >= 3, `progress was seen at ${seen.join(", ")} %`);
+    const sum = await shifts();
+    assert.ok(sum < 0.05, `what was in sight moved by ${sum}`);
   });
 
   it("tells what the summary tells", async () => {
     await show(`#/studies/${ids.watched}`);
     const summary = await service.get(`v1/studies/${ids.watched}/summary`);
-    assert.equal(summary.trials.completed, 300000);
+    assert.equal(summary.trials.completed, ids.watchedTrials);
     const share = Number((await page.locator(".headline .big").innerText()).replace(" %", ""));
     assert.ok(Math.abs(share - 100 * summary.success_rate.estimate) < 0.051);
     const converged = await page.locator(".outcomes tr", { hasText: "converged" }).locator("td").first().innerText();
@@ -118,7 +150,7 @@ describe("The page", { concurrency: false }, () => {
   it("maps the rates of very many trials, and lists the trials of a bin", async () => {
     await show(`#/studies/${ids.watched}`);
     await page.getByRole("link", { name: "Why it fails" }).click();
-    await page.getByText("All 300,000 trials", { exact: false }).waitFor();
+    await page.getByText(`All ${ids.watchedTrials.toLocaleString("en")} trials`, { exact: false }).waitFor();
     const over = page.locator(".map-card .u-over");
     const box = await over.boundingBox();
     await over.click({ position: { x: box.width * 0.9, y: box.height * 0.8 } });
@@ -170,10 +202,40 @@ describe("The page", { concurrency: false }, () => {
     await page.waitForFunction(() => Number.parseFloat(document.querySelector(".clock").value) > 0.3);
     await page.getByRole("button", { name: "Pause" }).click();
     const stopped = await clock.innerText();
-    await page.waitForTimeout(150);
+    await settled();
     assert.equal(await clock.innerText(), stopped);
     await page.getByRole("button", { name: "Next phase" }).click();
     assert.notEqual(await clock.innerText(), stopped);
+  });
+
+  it("zooms into a trial by two fingers, moves along it by one, and shows all again at a double tap", async () => {
+    const phone = await openPage(browser, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+    await phone.page.goto(`${service.url}#/studies/${ids.small}/trials/${ids.failed}?t=100`);
+    const over = phone.page.locator(".figure-card .u-over").first();
+    await over.waitFor();
+    await over.scrollIntoViewIfNeeded();
+    const box = await over.boundingBox();
+    const fingers = await phone.context.newCDPSession(phone.page);
+    const y = box.y + box.height / 2;
+    const touch = (type, ...shares) => fingers.send("Input.dispatchTouchEvent", { type, touchPoints: shares.map((share, id) => ({ x: box.x + share * box.width, y, id })) });
+    const heads = () => phone.page.locator(".playhead").evaluateAll((all) => all.map((each) => (each.hidden ? "hidden" : each.style.transform)));
+    const whole = await heads();
+    assert.equal(whole.length, 6);
+    await touch("touchStart", 0.4, 0.6);
+    await touch("touchMove", 0.2, 0.8);
+    await touch("touchEnd");
+    await phone.page.waitForFunction((before) => document.querySelector(".playhead").style.transform !== before, whole[0]);
+    const zoomed = await heads();
+    assert.equal(new Set(zoomed).size, 1, "every chart over time shows the same");
+    await touch("touchStart", 0.3);
+    await touch("touchMove", 0.5);
+    await touch("touchEnd");
+    await phone.page.waitForFunction((before) => document.querySelector(".playhead").style.transform !== before, zoomed[0]);
+    await over.tap();
+    await over.dblclick();
+    await phone.page.waitForFunction(() => [...document.querySelectorAll(".playhead")].every((each) => !each.hidden));
+    assert.deepEqual(phone.faults, []);
+    await phone.context.close();
   });
 
   it("gives a trial's course as CSV, every digit of it", async () => {
@@ -189,6 +251,14 @@ describe("The page", { concurrency: false }, () => {
   it("is a link away for a colleague: the URL names the view", async () => {
     await show(`#/studies/${ids.small}/trials/${ids.failed}?t=12.5`);
     await page.waitForFunction(() => document.querySelector(".clock")?.value === "12.5 s");
+  });
+
+  it("shows of a trial with the robust policy where it brakes and what it aims at", async () => {
+    ids.robust = await service.run({ ...combined, name: "robust", controller: { policy: "robust" }, sampling: { ...combined.sampling, trials: 20 } });
+    await show(`#/studies/${ids.robust}/trials/3`);
+    await page.getByText("where the policy brakes").waitFor();
+    await page.getByText("what the robust policy aims at").waitFor();
+    assert.equal(await page.getByText("Predicted (14), (15)").count(), 0, "that is what the paper's policy predicts");
   });
 
   it("opens a trial from the map by keyboard alone", async () => {
@@ -226,7 +296,7 @@ describe("The page", { concurrency: false }, () => {
   });
 
   it("goes on by itself when the service is killed and comes back", async () => {
-    const response = await fetch(`${service.url}v1/studies`, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify({ ...combined, name: "long", sampling: { ...combined.sampling, trials: 5_000_000 } }) });
+    const response = await fetch(`${service.url}v1/studies`, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify({ ...combined, name: "long", sampling: { ...combined.sampling, trials: trialsIn(90) } }) });
     assert.equal(response.status, 201);
     const { id } = await response.json();
     await show(`#/studies/${id}`);
@@ -272,6 +342,7 @@ describe("The page", { concurrency: false }, () => {
           [`#/studies/${ids.small}/trials`]: ".trial-table",
           [`#/studies/${ids.small}/trials/${ids.failed}`]: ".figure-card canvas",
           [`#/studies/${ids.swept}`]: ".heat",
+          [`#/studies/${ids.robust}/trials/3`]: ".figure-card canvas",
           [`#/compare?a=${ids.small}&b=${ids.other}`]: ".pairs",
         };
         for (const [fragment, sign] of Object.entries(views)) {
@@ -290,15 +361,19 @@ describe("The page", { concurrency: false }, () => {
     const result = join(folder, "small.h5");
     const html = join(folder, "small.html");
     const spec = join(folder, "small.json");
-    const { writeFileSync } = await import("node:fs");
-    writeFileSync(spec, JSON.stringify({ ...combined, name: "reported", sampling: { ...combined.sampling, trials: 300 } }));
+    writeFileSync(spec, JSON.stringify({ ...combined, name: "reported", sampling: { ...combined.sampling, trials: 100_000 } }));
     runProgram("run", spec, "-o", result, "--no-progress");
     runProgram("report", result, "-o", html);
+    assert.ok(statSync(html).size < 5_000_000, `a report of 100,000 trials has ${statSync(html).size} bytes`);
     const report = await openPage(browser);
     const requests = [];
     report.page.on("request", (request) => requests.push(request.url()));
     await report.page.goto(pathToFileURL(html).href);
     await report.page.locator(".headline .big").waitFor();
+    await report.page.getByRole("link", { name: "Why it fails" }).click();
+    await report.page.getByText("All 100,000 trials").waitFor();
+    await report.page.getByRole("button", { name: "Trials", exact: true }).click();
+    await report.page.getByText("10,000 of 100,000 trials, chosen at random").waitFor();
     await report.page.getByRole("link", { name: "Trials", exact: true }).click();
     await report.page.getByLabel("Show").selectOption("failed");
     await report.page.locator(".trial-table tbody a").first().click();
