@@ -1,5 +1,5 @@
 // Small parts that views are put together from.
-import type { ComponentChildren } from "preact";
+import { type ComponentChildren, Fragment } from "preact";
 import { useEffect, useState } from "preact/hooks";
 import type { Status, StudyState } from "./documents";
 import type { Loaded } from "./page_context";
@@ -106,11 +106,11 @@ export function Loading({ height }: { height: number }) {
   );
 }
 
-export function ProblemBox({ problem, children }: { problem: Problem; children?: ComponentChildren }) {
+export function ProblemBox({ problem, title = problem.title, detail = problem.detail, children }: { problem: Problem; title?: string; detail?: string; children?: ComponentChildren }) {
   return (
     <div class="problem" role="alert">
-      <strong>{problem.title}</strong>
-      {problem.detail && <p>{problem.detail}</p>}
+      <strong>{title}</strong>
+      {detail && <p>{detail}</p>}
       {children}
     </div>
   );
@@ -187,6 +187,11 @@ export function Choice<Value extends string>({ label, value, options, onChange }
       ))}
     </div>
   );
+}
+
+/** Code that breaks its line after a separator, where it has to. */
+export function BreakingCode({ text, at, class: name = "" }: { text: string; at: string; class?: string }) {
+  return <code class={name}>{text.split(at).map((part, k) => (k === 0 ? part : <Fragment key={k}>{at}<wbr />{part}</Fragment>))}</code>;
 }
 
 /** Text that a screen has no room for. */

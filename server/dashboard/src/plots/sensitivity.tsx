@@ -40,7 +40,7 @@ export function SensitivityBars({ sensitivity, used }: {
               <tr key={`${bar.input} ${row.name}`} class={k > 0 ? "second" : ""}>
                 <th scope="row"><span class={k === 0 ? "" : "unseen"} title={bar.input}>{symbol(bar.input)}</span>{bar.rows.length > 1 && <span class="muted small bar-kind"> {row.name}</span>}</th>
                 <td><IndexBar value={row.value} low={row.low} high={row.high} /></td>
-                <td class="right">{row.value === null ? none : row.value.toFixed(3).replace("-", "−")}</td>
+                <td class="right">{row.value === null ? none : fixed(row.value)}</td>
               </tr>
             )))}
           </tbody>
@@ -49,6 +49,9 @@ export function SensitivityBars({ sensitivity, used }: {
     </Card>
   );
 }
+
+/** With three digits behind the point; nothing is less than nothing. */
+const fixed = (value: number) => value.toFixed(3).replace(/^-(0\.0*)$/, "$1").replace("-", "−");
 
 const strength = (bar: Bar) => Math.max(...bar.rows.map((row) => row.value ?? -1));
 

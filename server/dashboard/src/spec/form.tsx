@@ -30,9 +30,11 @@ export function SpecForm({ edited }: { edited: Edited }) {
   );
 }
 
+const stopping = "Ends the study once the interval of every goal is narrow enough, in every cell; with Monte Carlo sampling alone.";
+
 function SchemaSection({ section, edited }: { section: Section; edited: Edited }) {
   return (
-    <FormSection path={[section.key]} title={section.title} description={section.description} isOpen={section.isOpen} edited={edited}>
+    <FormSection path={[section.key]} title={section.title} description={section.key === "stop" ? stopping : section.description} isOpen={section.isOpen} edited={edited}>
       {section.key === "stop" && <GoalsEditor edited={edited} />}
       {section.fields.map((field) => <FieldEditor key={field.path.join(".")} field={field} edited={edited} />)}
     </FormSection>

@@ -3,7 +3,7 @@ import { type ComparisonView, type Status, type StudyState, statuses } from "../
 import { statusWords, symbol, unitText } from "../names";
 import { count, none, number, percent, percentRange } from "../numbers";
 import { useDocument, usePage } from "../page_context";
-import { Card, Empty, Figure, Select, Shown, StatusName } from "../parts";
+import { BreakingCode, Card, Empty, Figure, Select, Shown, StatusName } from "../parts";
 import { TwoDistributions, DistributionPlot } from "../plots/distribution";
 import { type Points, Plane } from "../plots/plane";
 import { go, studyLink, trialLink } from "../route";
@@ -87,9 +87,9 @@ function Comparison({ view }: { view: ComparisonView }) {
       </Card>
       <Card class="wide" title="What differs in their specs">
         {comparison.differences.length === 0 ? <p class="muted">Nothing that decides an outcome.</p> : (
-          <div class="scroll"><table class="table">
+          <div class="scroll"><table class="table differences">
             <thead><tr><th scope="col">Place</th><th scope="col">A</th><th scope="col">B</th></tr></thead>
-            <tbody>{comparison.differences.map((each) => <tr key={each.pointer}><th scope="row"><code>{each.pointer}</code></th><td><SpecValue value={each.a} /></td><td><SpecValue value={each.b} /></td></tr>)}</tbody>
+            <tbody>{comparison.differences.map((each) => <tr key={each.pointer}><th scope="row"><BreakingCode text={each.pointer} at="/" /></th><td><SpecValue value={each.a} /></td><td><SpecValue value={each.b} /></td></tr>)}</tbody>
           </table></div>
         )}
       </Card>

@@ -1,4 +1,5 @@
 import { useEffect, useMemo, useState } from "preact/hooks";
+import { counted } from "../numbers";
 import { toProblem, usePage } from "../page_context";
 import { Card, ProblemBox } from "../parts";
 import type { Mistake, Problem } from "../problem";
@@ -112,7 +113,7 @@ export function NewStudyView({ from }: { from: string | null }) {
       {from !== null && <p class="note">The spec of study <code class="id">{from}</code>. With more trials and nothing else changed, those that are finished are taken over.</p>}
       {problem && (
         <div id="refused" tabIndex={-1}>
-          <ProblemBox problem={problem}>
+          <ProblemBox problem={problem} title={mistakes.length > 0 ? `The spec has ${counted(mistakes.length, "mistake")}` : problem.title} detail={mistakes.length > 0 ? "" : problem.detail}>
             {mistakes.length > 0 && (
               <ul>
                 {mistakes.map((mistake) => (

@@ -55,11 +55,11 @@ function StudyTable({ list, studies, now, chosen, onChoose }: {
           <tr>
             <th scope="col"><span class="unseen">Compare</span></th>
             <th scope="col">Study</th>
-            <th scope="col">State</th>
-            <th scope="col">Trials</th>
-            <th scope="col" class="right wide-only">Rate</th>
-            <th scope="col" class="wide-only">Created</th>
-            <th scope="col"><span class="unseen">Actions</span></th>
+            <th scope="col" class="column-state">State</th>
+            <th scope="col" class="column-trials">Trials</th>
+            <th scope="col" class="right wide-only column-rate">Rate</th>
+            <th scope="col" class="wide-only column-created">Created</th>
+            <th scope="col" class="column-actions"><span class="unseen">Actions</span></th>
           </tr>
         </thead>
         <tbody>
@@ -89,7 +89,7 @@ function StudyTable({ list, studies, now, chosen, onChoose }: {
 /** How far a study is; a failed one's reason in its place. */
 export function StudyProgress({ study }: { study: StudyState }) {
   const { completed, requested, eta_s: left } = study.progress;
-  if (study.status === "failed" && study.failure) return <span class="failure">{study.failure}</span>;
+  if (study.status === "failed" && study.failure) return <p class="study-progress failed failure" title={study.failure}>{study.failure}</p>;
   return (
     <div class="study-progress">
       <span class="numbers">

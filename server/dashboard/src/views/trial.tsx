@@ -4,7 +4,7 @@ import { failedTrials } from "../failed_trials";
 import { meaning, statusMeaning, symbol, unitText } from "../names";
 import { counted, number, quantity } from "../numbers";
 import { toProblem, useDocument, usePage } from "../page_context";
-import { Card, Empty, Figure, Shown, StatusName } from "../parts";
+import { BreakingCode, Card, Empty, Figure, Shown, StatusName } from "../parts";
 import { Player } from "../player";
 import { ContractionPlot } from "../plots/contraction";
 import { PhasePlane } from "../plots/phase_plane";
@@ -62,14 +62,15 @@ function Neighbours({ id, index }: { id: string; index: number }) {
   const failed = failedTrials(id);
   const state = useDocument<StudyState>(id, (signal) => source.state(id, signal));
   const end = state.value?.progress.requested ?? Infinity;
+  const listed = source.report?.trials.map((each) => each.index).sort((a, b) => a - b); // a report has some trials alone
   const before = [...failed].reverse().find((each) => each < index && source.has(each));
   const after = failed.find((each) => each > index && source.has(each));
   const link = (to: number | undefined, text: string) =>
     to !== undefined && to >= 0 && to < end && source.has(to) ? <a class="button quiet" href={trialLink(id, to)}>{text}</a> : <button type="button" class="button quiet" disabled>{text}</button>;
   return (
     <div class="page-actions">
-      {link(index - 1, "← Previous")}
-      {link(index + 1, "Next →")}
+      {link(listed ? listed.filter((each) => each < index).pop() : index - 1, "← Previous")}
+      {link(listed ? listed.find((each) => each > index) : index + 1, "Next →")}
       {failed.length > 0 && link(before, "← Failed")}
       {failed.length > 0 && link(after, "Failed →")}
     </div>
@@ -197,7 +198,7 @@ function ParameterList({ parameters }: { parameters: TrialView["parameters"] }) 
     <ul class="parameters">
       {parameters.map((each) => (
         <li key={each.input} title={meaning(each.input)}>
-          <span>{symbol(each.input)}<code class="id">{each.input}</code></span>
+          <span>{symbol(each.input)}<BreakingCode class="id" text={each.input} at="." /></span>
           <strong>{each.value === null ? "no limit" : number(each.value, 6)}{each.unit !== "1" && <span class="muted"> {unitText(each.unit)}</span>}</strong>
         </li>
       ))}
