@@ -37,6 +37,7 @@ Handle creation_properties(hsize_t rows, bool compressed) {
 
 void write_column(hid_t group, const std::string& name, NumberType type, const void* data, std::size_t rows,
                   const std::string& units) {
+  Session::give_way();
   const std::string what = "cannot write the dataset " + name;
   const hsize_t extent = rows;
   const Handle space(H5Screate_simple(1, &extent, nullptr), H5Sclose, what);
@@ -66,9 +67,16 @@ Column::Column(hid_t group, const std::string& name, NumberType type, const std:
   }
 }
 
-void Column::read(void* data) const {
-  if (rows_ == 0) return;
-  checked(H5Dread(dataset_.id(), native_, H5S_ALL, H5S_ALL, H5P_DEFAULT, data), "cannot read the dataset " + name_);
+void Column::read(std::size_t begin, std::size_t count, void* data) const {
+  if (count == 0) return;
+  Session::give_way();
+  const std::string what = "cannot read the dataset " + name_;
+  const hsize_t start = begin;
+  const hsize_t length = count;
+  const Handle stored(H5Dget_space(dataset_.id()), H5Sclose, what);
+  checked(H5Sselect_hyperslab(stored.id(), H5S_SELECT_SET, &start, nullptr, &length, nullptr), what);
+  const Handle memory(H5Screate_simple(1, &length, nullptr), H5Sclose, what);
+  checked(H5Dread(dataset_.id(), native_, memory.id(), stored.id(), H5P_DEFAULT, data), what);
 }
 
 }  // namespace steerstat::hdf5

@@ -6,7 +6,8 @@
 
 #include "store/hdf5.hpp"
 
-/// One-dimensional datasets, row by row, and their `units`.
+/// One-dimensional datasets, row by row, and their `units`. Before each, others may use HDF5 (Session::give_way()): who
+/// reads or writes a large file holds nobody up for longer than one of its datasets takes.
 namespace steerstat::hdf5 {
 
 /// Writes a dataset (rows) of any type: chunked, a Fletcher-32 checksum on every chunk, whole numbers compressed.
@@ -48,7 +49,10 @@ class Column {
   [[nodiscard]] std::size_t rows() const { return rows_; }
 
   /// @param data  (rows) @throws Problem, for one where a checksum is wrong
-  void read(void* data) const;
+  void read(void* data) const { read(0, rows_, data); }
+
+  /// Reads the rows [begin, begin + count), which there are. @param data  (count) @throws Problem
+  void read(std::size_t begin, std::size_t count, void* data) const;
 
  private:
   std::string name_;
@@ -57,16 +61,29 @@ class Column {
   std::size_t rows_{0};
 };
 
+/// Rows [begin, begin + count) of datasets that have `of` rows.
+struct Rows {
+  std::size_t begin;
+  std::size_t count;
+  std::size_t of;
+};
+
+/// Reads rows of a dataset that must have as many in all. @throws Problem
+template <class Number>
+std::vector<Number> read_column(hid_t group, const std::string& name, const std::string& units, Rows rows) {
+  const Column column(group, name, type_of(Number{}), units);
+  if (column.rows() != rows.of) {
+    throw Problem(name + " has " + std::to_string(column.rows()) + " rows, /trials/index " + std::to_string(rows.of));
+  }
+  std::vector<Number> values(rows.count);
+  column.read(rows.begin, rows.count, values.data());
+  return values;
+}
+
 /// Reads a dataset that must have `rows` rows. @throws Problem
 template <class Number>
 std::vector<Number> read_column(hid_t group, const std::string& name, const std::string& units, std::size_t rows) {
-  const Column column(group, name, type_of(Number{}), units);
-  if (column.rows() != rows) {
-    throw Problem(name + " has " + std::to_string(column.rows()) + " rows, /trials/index " + std::to_string(rows));
-  }
-  std::vector<Number> values(rows);
-  column.read(values.data());
-  return values;
+  return read_column<Number>(group, name, units, Rows{0, rows, rows});
 }
 
 }  // namespace steerstat::hdf5

@@ -1,13 +1,46 @@
 #include "store/hdf5.hpp"
 
+#include <condition_variable>
+#include <cstdint>
 #include <mutex>
 
 namespace steerstat::hdf5 {
 namespace {
 
-std::mutex& library_mutex() {
-  static std::mutex mutex;
-  return mutex;
+/// Who may use the library: one thread, then the one that came next. A plain mutex may be had again and again by the
+/// thread that has it.
+class Line {
+ public:
+  void enter() {
+    std::unique_lock lock(mutex_);
+    const std::uint64_t number = next_++;
+    moved_.wait(lock, [&] { return number == served_; });
+    H5Eget_auto2(H5E_DEFAULT, &printer_, &printer_data_);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
+  void leave() {
+    const std::lock_guard lock(mutex_);
+    H5Eset_auto2(H5E_DEFAULT, printer_, printer_data_);
+    ++served_;
+    moved_.notify_all();
+  }
+  [[nodiscard]] bool somebody_waits() {
+    const std::lock_guard lock(mutex_);
+    return next_ - served_ > 1;
+  }
+
+ private:
+  std::mutex mutex_{};
+  std::condition_variable moved_{};
+  std::uint64_t next_{0};
+  std::uint64_t served_{0};
+  H5E_auto2_t printer_{nullptr};  // of who is not in a session
+  void* printer_data_{nullptr};
+};
+
+Line& line() {
+  static Line line;
+  return line;
 }
 
 herr_t append_description(unsigned, const H5E_error2_t* error, void* text) {
@@ -28,14 +61,17 @@ void fail(const std::string& what) {
 }
 
 Session::Session() {
-  library_mutex().lock();
-  H5Eget_auto2(H5E_DEFAULT, &printer_, &printer_data_);
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  line().enter();
 }
 
 Session::~Session() {
-  H5Eset_auto2(H5E_DEFAULT, printer_, printer_data_);
-  library_mutex().unlock();
+  line().leave();
+}
+
+void Session::give_way() {
+  if (!line().somebody_waits()) return;
+  line().leave();
+  line().enter();
 }
 
 NumberType type_of(double) {

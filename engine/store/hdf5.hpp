@@ -29,7 +29,8 @@ Code checked(Code code, const std::string& what) {
   return code;
 }
 
-/// The right to use HDF5, held by one thread at a time; meanwhile HDF5 prints no errors of its own.
+/// The right to use HDF5, held by one thread at a time, in the order of coming; meanwhile HDF5 prints no errors of its
+/// own.
 class Session {
  public:
   Session();
@@ -37,9 +38,8 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
- private:
-  H5E_auto2_t printer_{nullptr};
-  void* printer_data_{nullptr};
+  /// Lets those who wait go first, and comes back with the right. For whoever has it and works for long.
+  static void give_way();
 };
 
 /// An open HDF5 object, closed at the end of its scope.

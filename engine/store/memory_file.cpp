@@ -98,4 +98,12 @@ Handle open_in_memory(std::span<const std::byte> bytes) {
   return {H5Fopen(unused_name().c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose, "cannot open it as HDF5"};
 }
 
+Handle open_on_disk(const std::filesystem::path& path) {
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "cannot set up file access");
+  checked(H5Pset_fapl_sec2(access.id()), "cannot set up file access");
+  // Nobody writes to our files, and not every file system can lock.
+  checked(H5Pset_file_locking(access.id(), false, true), "cannot do without a lock of the file");
+  return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose, "cannot open it as HDF5"};
+}
+
 }  // namespace steerstat::hdf5

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <span>
 
@@ -45,5 +46,8 @@ class MemoryFile {
 
 /// A file to be read. @param bytes  all of its bytes, not empty, which must outlive it @throws Problem
 Handle open_in_memory(std::span<const std::byte> bytes);
+
+/// A file to be read where it lies: what is not read of it costs nothing. @throws Problem
+Handle open_on_disk(const std::filesystem::path& path);
 
 }  // namespace steerstat::hdf5

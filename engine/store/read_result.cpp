@@ -74,7 +74,7 @@ TrialTable read_trials(hid_t file, const Plan& plan) {
   const hdf5::Handle group = hdf5::open_group(file, "trials");
   TrialTable table;
   table.index = hdf5::read_index(group.id(), plan.trials());
-  table.outcomes = hdf5::read_outcomes(group.id(), table.index.size());
+  table.outcomes = hdf5::read_outcomes(group.id(), {0, table.index.size(), table.index.size()});
   check_cells(group.id(), plan, table.index);
   return table;
 }
@@ -87,7 +87,7 @@ Audit read_audit(hid_t file, const TrialTable& trials) {
   const std::size_t rows = hdf5::Column(group.id(), "index", hdf5::type_of(std::uint64_t{}), "1").rows();
   if (rows > trials.index.size()) throw Problem(fmt::format("/audit has {} of {} trials", rows, trials.index.size()));
   const auto index = hdf5::read_column<std::uint64_t>(group.id(), "index", "1", rows);
-  const auto statuses = hdf5::read_statuses(group.id(), "/audit", rows);
+  const auto statuses = hdf5::read_statuses(group.id(), "/audit", {0, rows, rows});
   const auto cycles = hdf5::read_column<std::uint32_t>(group.id(), "cycles", "1", rows);
   const auto swings = hdf5::read_column<std::uint32_t>(group.id(), "swings", "1", rows);
   const auto settling = hdf5::read_column<double>(group.id(), "settling_time", "s", rows);

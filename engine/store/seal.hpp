@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,5 +15,9 @@ std::string seal_of(std::span<const std::byte> bytes);
 
 /// @return the bytes before the seal; nothing where there is no seal or another one
 std::optional<std::span<const std::byte>> without_seal(std::span<const std::byte> sealed);
+
+/// Whether a file ends in the seal of what comes before it. Reads all of it, and holds little in memory.
+/// @throws RunFailure where it cannot be read
+bool is_sealed(const std::filesystem::path& path);
 
 }  // namespace steerstat

@@ -73,7 +73,7 @@ Shard read_bytes(std::span<const std::byte> bytes, const ShardOrigin& origin, st
   }
   shard.begin = index.front();
   if (!hdf5::has_every_outcome(group.id())) throw Problem("it lacks metrics");
-  shard.outcomes = hdf5::read_outcomes(group.id(), index.size());
+  shard.outcomes = hdf5::read_outcomes(group.id(), {0, index.size(), index.size()});
   return shard;
 }
 

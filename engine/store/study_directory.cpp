@@ -41,7 +41,9 @@ bool begins_with(const fs::path& file, const char* prefix) {
 StudyDirectory::StudyDirectory(fs::path path) : path_(std::move(path)) {
   make_directory(path_);
   lock_.emplace(path_);
-  remove_files(temporary_prefix);
+  for (const fs::path& file : files_called(temporary_prefix)) {
+    if (!is_own_temporary(file)) remove_file(file);  // others of this process may be at work on what is no trial
+  }
 }
 
 std::vector<fs::path> StudyDirectory::files_called(const char* prefix) const {

@@ -15,15 +15,16 @@ namespace steerstat::hdf5 {
 namespace {
 
 /// Of a settling time, which follows from status and end_time: whether it does.
-void check_settling_times(hid_t trials, std::span<const TrialOutcome> outcomes) {
-  const auto settling = read_column<double>(trials, "settling_time", "s", outcomes.size());
+void check_settling_times(hid_t trials, Rows rows, std::span<const TrialOutcome> outcomes) {
+  const auto settling = read_column<double>(trials, "settling_time", "s", rows);
   for (std::size_t row = 0; row < outcomes.size(); ++row) {
     const double expected = outcomes[row].settling_time();
     if (settling[row] != expected && !(std::isnan(settling[row]) && std::isnan(expected))) {
-      throw Problem(fmt::format("/trials/settling_time in row {} does not follow from status and end_time", row));
+      throw Problem(
+          fmt::format("/trials/settling_time in row {} does not follow from status and end_time", rows.begin + row));
     }
     if (outcomes[row].status == Status::converged && !std::isfinite(expected)) {
-      throw Problem(fmt::format("/trials/end_time in row {} is not finite, yet the trial converged", row));
+      throw Problem(fmt::format("/trials/end_time in row {} is not finite, yet the trial converged", rows.begin + row));
     }
   }
 }
@@ -51,36 +52,36 @@ bool has_every_outcome(hid_t trials) {
                      [&](const auto& column) { return has_member(trials, column.name); });
 }
 
-std::vector<TrialOutcome> read_outcomes(hid_t trials, std::size_t rows) {
-  std::vector<TrialOutcome> outcomes(rows);
+std::vector<TrialOutcome> read_outcomes(hid_t trials, Rows rows) {
+  std::vector<TrialOutcome> outcomes(rows.count);
   const std::vector<Status> statuses = read_statuses(trials, "/trials", rows);
-  for (std::size_t row = 0; row < rows; ++row) outcomes[row].status = statuses[row];
+  for (std::size_t row = 0; row < rows.count; ++row) outcomes[row].status = statuses[row];
   const auto read_field = [&]<class Number>(const layout::OutcomeColumn<Number>& column) {
     const auto values = read_column<Number>(trials, column.name, column.units, rows);
-    for (std::size_t row = 0; row < rows; ++row) column.field(outcomes[row]) = values[row];
+    for (std::size_t row = 0; row < rows.count; ++row) column.field(outcomes[row]) = values[row];
   };
   for (const auto& column : layout::real_columns) read_field(column);
   for (const auto& column : layout::count_columns) read_field(column);
   for (const auto& column : layout::metric_columns) {
     if (has_member(trials, column.name)) read_field(column);
   }
-  check_settling_times(trials, outcomes);
+  check_settling_times(trials, rows, outcomes);
   return outcomes;
 }
 
-std::vector<Status> read_statuses(hid_t group, std::string_view place, std::size_t rows) {
+std::vector<Status> read_statuses(hid_t group, std::string_view place, Rows rows) {
   const Handle type = enumeration(status_names);
   const Column column(group, "status", {type.id(), type.id()}, "1");
-  if (column.rows() != rows) {
-    throw Problem(fmt::format("status has {} rows, {}/index {}", column.rows(), place, rows));
+  if (column.rows() != rows.of) {
+    throw Problem(fmt::format("status has {} rows, {}/index {}", column.rows(), place, rows.of));
   }
-  std::vector<std::uint8_t> values(rows);
-  column.read(values.data());
+  std::vector<std::uint8_t> values(rows.count);
+  column.read(rows.begin, rows.count, values.data());
   std::vector<Status> statuses;
-  statuses.reserve(rows);
-  for (std::size_t row = 0; row < rows; ++row) {
+  statuses.reserve(rows.count);
+  for (std::size_t row = 0; row < rows.count; ++row) {
     if (values[row] >= status_names.size()) {
-      throw Problem(fmt::format("{}/status {} in row {} is no outcome", place, values[row], row));
+      throw Problem(fmt::format("{}/status {} in row {} is no outcome", place, values[row], rows.begin + row));
     }
     statuses.push_back(static_cast<Status>(values[row]));
   }

@@ -75,11 +75,16 @@ fs::path directory_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/// A name in a directory that no other write uses, nor one of another machine that shares the directory.
-fs::path temporary_in(const fs::path& directory) {
+/// How the names of this process's temporary files begin, and those of no other, of another machine either.
+std::string own_prefix() {
   static const unsigned process = std::random_device{}();
+  return fmt::format(".tmp-{}-{:08x}-", ::getpid(), process);
+}
+
+/// A name in a directory that no other write uses.
+fs::path temporary_in(const fs::path& directory) {
   static std::atomic<unsigned> count{0};
-  return directory / fmt::format(".tmp-{}-{:08x}-{}", ::getpid(), process, count++);
+  return directory / fmt::format("{}{}", own_prefix(), count++);
 }
 
 /// A new, empty file. What an earlier process of the same number left behind is in nobody's use.
@@ -136,7 +141,7 @@ fs::path resolved(const fs::path& path, const fs::file_status& status) {
 }  // namespace
 
 void write_whole_file(const fs::path& path, std::initializer_list<std::span<const std::byte>> parts,
-                      const fs::path& workshop) {
+                      const fs::path& workshop, Reserve reserve) {
   const fs::file_status status = status_of(path);
   if (written_in_place(status)) {
     Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
@@ -147,13 +152,17 @@ void write_whole_file(const fs::path& path, std::initializer_list<std::span<cons
     return;
   }
   const fs::path target = resolved(path, status);
-  require_free_space(directory_of(target), total_size(parts));
+  if (reserve == Reserve::stays) require_free_space(directory_of(target), total_size(parts));
   const fs::path temporary = temporary_in(workshop.empty() ? directory_of(target) : workshop);
   if (const int error = write_and_rename(temporary, target, parts); error != 0) {
     ::unlink(temporary.c_str());
     fail("write", path, error);
   }
   sync_directory(directory_of(target));
+}
+
+bool is_own_temporary(const fs::path& path) {
+  return path.filename().string().starts_with(own_prefix());
 }
 
 void sync_directory(const fs::path& directory) {

@@ -15,9 +15,15 @@ namespace steerstat {
 ///
 /// @param parts     the file's bytes, one part after the other
 /// @param workshop  where `.tmp-*` stands instead: a directory of the same file system, for those who clear it later
+/// @param reserve   whether the file may use the disk's reserve: small ones that tell of the others
 /// @throws RunFailure naming the path and the reason; whatever stood there is then untouched
+enum class Reserve { stays, may_be_used };
 void write_whole_file(const std::filesystem::path& path, std::initializer_list<std::span<const std::byte>> parts,
-                      const std::filesystem::path& workshop = {});
+                      const std::filesystem::path& workshop = {}, Reserve reserve = Reserve::stays);
+
+/// Whether a `.tmp-*` is one that this process writes, or has written: another one's, where nobody else has the
+/// directory, is what was left when it died.
+bool is_own_temporary(const std::filesystem::path& path);
 
 /// Makes what was created, renamed or deleted in a directory last. @throws RunFailure
 void sync_directory(const std::filesystem::path& directory);

@@ -44,16 +44,22 @@ void write_trials(hid_t file, const Plan& plan, const TrialTable& trials) {
   hdf5::write_outcomes(group.id(), trials.outcomes);
 }
 
-void write_parameters(hid_t file, const Plan& plan, const TrialTable& trials) {
-  const hdf5::Handle group = hdf5::create_group(file, "parameters");
-  const std::vector<std::string>& names = plan.varying();
+/// (varying x rows)
+std::vector<std::vector<double>> drawn(const Plan& plan, const TrialTable& trials) {
   const std::size_t rows = trials.index.size();
-  std::vector<std::vector<double>> columns(names.size(), std::vector<double>(rows));
-  std::vector<double> values(names.size());
+  std::vector<std::vector<double>> columns(plan.varying().size(), std::vector<double>(rows));
+  std::vector<double> values(columns.size());
   for (std::size_t row = 0; row < rows; ++row) {
     plan.draw(trials.index[row], values);
-    for (std::size_t i = 0; i < names.size(); ++i) columns[i][row] = values[i];
+    for (std::size_t i = 0; i < columns.size(); ++i) columns[i][row] = values[i];
   }
+  return columns;
+}
+
+/// @param columns  (varying x rows)
+void write_parameters(hid_t file, const Plan& plan, const std::vector<std::vector<double>>& columns) {
+  const hdf5::Handle group = hdf5::create_group(file, "parameters");
+  const std::vector<std::string>& names = plan.varying();
   for (std::size_t i = 0; i < names.size(); ++i) {
     hdf5::write_column<double>(group.id(), names[i], columns[i], layout::units_of(names[i]));
   }
@@ -90,12 +96,13 @@ void write_audit(hid_t file, const Audit& audit) {
 }
 
 hdf5::Bytes result_bytes(const Study& study, const StudyResult& result) {
-  const hdf5::Session session;
   const Plan plan(study);
+  const std::vector<std::vector<double>> columns = drawn(plan, result.trials);  // while others may use HDF5
+  const hdf5::Session session;
   hdf5::MemoryFile file;
   write_description(file.id(), study, result);
   write_trials(file.id(), plan, result.trials);
-  write_parameters(file.id(), plan, result.trials);
+  write_parameters(file.id(), plan, columns);
   write_audit(file.id(), result.audit);
   {
     const hdf5::Handle trajectories = hdf5::create_group(file.id(), "trajectories");

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <string_view>
 
+#include "api/acceptance.hpp"
 #include "api/reply.hpp"
 #include "api/routes.hpp"
 #include "report/pairing.hpp"
@@ -17,6 +19,27 @@ using Clock = std::chrono::steady_clock;
 
 std::string counted(std::size_t count, const char* what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+/// The media type that a route answers with; "" of the page's files and of UM-Bridge, whose clients may say what they
+/// like.
+std::string_view type_of(std::string_view pattern) {
+  if (pattern.ends_with("/events")) return "text/event-stream";
+  if (pattern.ends_with("/results.h5")) return "application/x-hdf5";
+  if (pattern == "/metrics") return "text/plain";
+  const bool is_json = pattern.starts_with("/v1/") || pattern == "/openapi.json" || pattern == "/healthz";
+  return is_json ? "application/json" : "";
+}
+
+/// @throws Refused 406 where the client does not take what the route answers with
+void require_acceptable(const Router::Route& route, const httplib::Request& request) {
+  const std::string_view type = type_of(route.pattern);
+  std::string accept;
+  const auto [first, last] = request.headers.equal_range("Accept");
+  for (auto field = first; field != last; ++field) accept += (accept.empty() ? "" : ", ") + field->second;
+  if (!type.empty() && !accepts(accept, type)) {
+    throw Refused({406, fmt::format("this is {}, which Accept does not name; add it, or */*", type), {}, {}});
+  }
 }
 
 /// Answers, with what the service throws as the problem that it is to a client.
@@ -88,6 +111,7 @@ class Api::Implementation {
     try {
       const Router::Match match = router_.find(request.method, request.path);
       route = match.route->pattern;
+      require_acceptable(*match.route, request);
       call(*match.route, {request, match.values}, response);
     } catch (const Refused& refused) {
       answer_with(response, refused.problem());

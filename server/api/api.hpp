@@ -20,12 +20,14 @@ struct Asset {
 
 struct ApiOptions {
   std::vector<Asset> assets{};  ///< the dashboard; without one for "/" a short page stands there
-  /// Requests of a kind that may be answered at once, so that others find a worker free: 503 beyond.
+  /// Requests of a kind that may be answered at once, so that others find a worker free: 503 beyond. Fewer together
+  /// than there are workers (DoorLimits).
   std::size_t event_streams{16};
   std::size_t downloads{8};
   std::size_t computations{12};          ///< of trajectories, comparisons and views
   std::size_t evaluations{8};            ///< of UM-Bridge models, each of which may wait for a study
   std::size_t summaries{16};             ///< of studies under way, each of which may wait for one that is being made
+  std::size_t readings{16};              ///< of trials of studies that are over, whose files may have to be read first
   std::function<DoorCounters()> door{};  ///< for /metrics to tell of; may be empty
 };
 

@@ -20,6 +20,7 @@ struct Surroundings {
   Share computations{options.computations};
   Share evaluations{options.evaluations};
   Share summaries{options.summaries};
+  Share readings{options.readings};
   Models models{service};
   RequestMetrics metrics{};
   std::stop_source stop{};

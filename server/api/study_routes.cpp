@@ -73,12 +73,18 @@ void show_spec(const StudyService& service, const Call& call, httplib::Response&
 
 void cancel_or_remove(StudyService& service, const Call& call, httplib::Response& response) {
   expect_parameters(call.request, {});
-  const StudyService::Removal removal = service.cancel_or_remove(id_of(call));
-  if (removal.removed) {
+  std::optional<StudyService::Removal> removal;
+  try {
+    removal = service.cancel_or_remove(id_of(call));
+  } catch (const RunFailure& failure) {
+    throw Refused({503, failure.what(), {}, {{"Retry-After", "60"}}});
+  }
+  if (removal->removed) {
     response.status = 204;
     return;
   }
-  reply_json(response, state_json(removal.state) + "\n", tag_of(removal.state.revision));
+  const StudyState& state = removal->state;
+  reply_json(response, state_json(state) + "\n", tag_of(state.revision), is_over(state.status) ? 200 : 202);
 }
 
 }  // namespace

@@ -33,13 +33,21 @@ TrialFilter filter_of(const httplib::Request& request) {
   return filter;
 }
 
-void list(const StudyService& service, const Call& call, httplib::Response& response) {
+/// Nothing of a study under way, whose trials are in memory.
+std::shared_ptr<void> place_to_read(Surroundings& surroundings, const StudyState& state) {
+  return is_over(state.status) ? take_place(surroundings.readings, "readings of trials") : nullptr;
+}
+
+void list(Surroundings& surroundings, const Call& call, httplib::Response& response) {
+  const StudyService& service = surroundings.service;
   expect_parameters(call.request, {"limit", "cursor", "status", "cell"});
   const std::string& id = id_of(call);
   const TrialFilter filter = filter_of(call.request);
   const auto limit = number_parameter(call.request, "limit", 1, most_trials_a_page).value_or(usual_trials_a_page);
   const auto begin = number_parameter(call.request, "cursor", 0, any).value_or(0);
-  if (has_already(call.request, response, tag_of(state_of(service, id).revision))) return;
+  const StudyState state = state_of(service, id);
+  if (has_already(call.request, response, tag_of(state.revision))) return;
+  const auto place = place_to_read(surroundings, state);
   const TrialPage page = service.trials(id, filter, begin, limit);
   reply_json(response, trials_json(page), tag_of(page.revision));
 }
@@ -49,10 +57,12 @@ std::string tag_of_trial(const std::string& id, std::uint64_t index) {
   return fmt::format("\"{}-{}\"", id, index);
 }
 
-void show(const StudyService& service, const Call& call, httplib::Response& response) {
+void show(Surroundings& surroundings, const Call& call, httplib::Response& response) {
+  const StudyService& service = surroundings.service;
   expect_parameters(call.request, {});
   const std::string& id = id_of(call);
   const std::uint64_t index = trial_of(call);
+  const auto place = place_to_read(surroundings, state_of(service, id));
   const TrialPage page = service.trial(id, index);
   if (has_already(call.request, response, tag_of_trial(id, index))) return;
   reply_json(response, trial_json(page), tag_of_trial(id, index));
@@ -81,11 +91,10 @@ std::uint64_t trial_of(const Call& call) {
 }
 
 void add_trial_routes(Router& router, Surroundings& surroundings) {
-  const StudyService& service = surroundings.service;
   router.add("GET", "/v1/studies/{id}/trials",
-             [&](const Call& call, auto& response) { list(service, call, response); });
+             [&](const Call& call, auto& response) { list(surroundings, call, response); });
   router.add("GET", "/v1/studies/{id}/trials/{index}",
-             [&](const Call& call, auto& response) { show(service, call, response); });
+             [&](const Call& call, auto& response) { show(surroundings, call, response); });
   router.add("GET", "/v1/studies/{id}/trials/{index}/trajectory",
              [&](const Call& call, auto& response) { replay(surroundings, call, response); });
 }

@@ -18,7 +18,7 @@ struct DoorLimits {
   std::chrono::milliseconds write_time{10'000};  ///< that writing each 64 KiB of a response may block
   std::chrono::milliseconds linger_time{2'000};  ///< that a refused client may go on sending before the reset
   std::size_t connections{512};                  ///< at once; beyond, the oldest without a whole request goes
-  std::size_t workers{64};                       ///< requests answered at once
+  std::size_t workers{96};                       ///< requests answered at once
 };
 
 }  // namespace steerstat

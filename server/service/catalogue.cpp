@@ -112,9 +112,13 @@ std::optional<StudyState> Catalogue::wait(const std::string& id, std::uint64_t r
   return state_of(*found->second);
 }
 
-void Catalogue::wait_for_end(const StudyEntry& entry) const {
+StudyState Catalogue::wait_for_end(const StudyEntry& entry, std::chrono::milliseconds timeout) const {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return !entry.run; });
+  if (entry.run) {
+    const auto began = entry.run->began;
+    changed_.wait_for(lock, timeout, [&] { return !entry.run || entry.run->began != began; });
+  }
+  return state_of(entry);
 }
 
 void Catalogue::close() {

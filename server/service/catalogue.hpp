@@ -72,8 +72,8 @@ class Catalogue {
   [[nodiscard]] std::optional<StudyState> wait(const std::string& id, std::uint64_t revision,
                                                std::chrono::milliseconds timeout, const std::stop_token& stop) const;
 
-  /// Waits until the entry does not run.
-  void wait_for_end(const StudyEntry& entry) const;
+  /// Waits until the run that is under way, if one is, has ended; at most so long. @return the state then
+  StudyState wait_for_end(const StudyEntry& entry, std::chrono::milliseconds timeout) const;
 
   /// Wakes all who wait, and lets nobody wait() any more.
   void close();

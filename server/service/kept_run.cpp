@@ -136,19 +136,25 @@ StudyRecord record_after(const KeptRun& run, const Ending& ending, std::optional
   });
 }
 
-/// Notes the ending on the disk, then for clients.
-void settle(const KeptRun& run, const Ending& ending, const std::optional<std::string>& failure) {
+/// Notes the ending on the disk, then for clients. @return whether it is on the disk
+bool settle(const KeptRun& run, const Ending& ending, const std::optional<std::string>& failure) {
   const std::lock_guard keeping(run.entry.keeping);
   const StudyRecord record = record_after(run, ending, failure);
+  bool is_kept = true;
   try {
     write_record(run.entry.home.record(), record);
   } catch (const std::exception& problem) {
-    run.tell(fmt::format("{}; study {} is looked at again at the next start", problem.what(), run.entry.id));
+    is_kept = false;
+    run.tell(
+        fmt::format("{}; how study {} ended ({}) is not on the disk: tried again until the service ends, at whose "
+                    "next start it would go on",
+                    problem.what(), run.entry.id, name_of(record.status)));
   }
   run.catalogue.change(run.entry, [&](StudyEntry& entry) {
     entry.record = record;
     entry.run.reset();
   });
+  return is_kept;
 }
 
 }  // namespace
@@ -163,7 +169,7 @@ void keep_record(const Catalogue& catalogue, StudyEntry& entry) {
   write_record(entry.home.record(), record);
 }
 
-void run_and_keep(const KeptRun& run) noexcept {
+bool run_and_keep(const KeptRun& run) noexcept {
   Ending ending;
   std::optional<std::string> failure;
   try {
@@ -178,7 +184,7 @@ void run_and_keep(const KeptRun& run) noexcept {
     failure = "an internal error; please report it";
   }
   if (failure) run.tell(fmt::format("study {} has failed: {}", run.entry.id, *failure));
-  settle(run, ending, failure);
+  return settle(run, ending, failure);
 }
 
 }  // namespace steerstat

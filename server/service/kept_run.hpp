@@ -24,7 +24,8 @@ struct KeptRun {
 
 /// Runs what is left of a study, keeps its trials, result and summary in its directory, and notes there and in its
 /// entry how it ended. Throws nothing: a study that cannot go on has failed, with the reason in its record.
-void run_and_keep(const KeptRun& run) noexcept;
+/// @return whether the record could be written; where not, keep_record() is to be tried again
+bool run_and_keep(const KeptRun& run) noexcept;
 
 /// Writes the record of a study as it is now. @throws RunFailure
 void keep_record(const Catalogue& catalogue, StudyEntry& entry);

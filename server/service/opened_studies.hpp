@@ -23,6 +23,9 @@ class OpenedStudies {
   std::shared_ptr<const KeptStudy> open(const std::string& id, std::uint64_t revision,
                                         const std::function<KeptStudy()>& read);
 
+  /// @return null where it is not in memory
+  std::shared_ptr<const KeptStudy> find(const std::string& id, std::uint64_t revision);
+
   void forget(const std::string& id);
 
  private:
@@ -33,7 +36,6 @@ class OpenedStudies {
     std::shared_ptr<const KeptStudy> study;
   };
 
-  std::shared_ptr<const KeptStudy> find(const std::string& id, std::uint64_t revision);
   void remember(Opened opened);
 
   const std::uint64_t most_;

@@ -12,6 +12,7 @@
 #include "core/errors.hpp"
 #include "core/version.hpp"
 #include "service/study_service.hpp"
+#include "store/result_rows.hpp"
 #include "study/plan.hpp"
 
 namespace steerstat {
@@ -39,6 +40,19 @@ TrialPage page_of(const View& view, const Plan& plan, const TrialFilter& filter,
     page.rows.push_back({index, plan.cell_of(index), {}, outcome});
   }
   return page;
+}
+
+/// Which trials of a complete result pass: up to one more than `limit`, from index `begin` on.
+std::vector<std::uint64_t> passing(const ResultRows& result, std::uint64_t trials, const Plan& plan,
+                                   const TrialFilter& filter, std::uint64_t begin, std::size_t limit) {
+  const std::vector<Status> statuses = filter.status ? result.statuses() : std::vector<Status>{};
+  std::vector<std::uint64_t> index;
+  for (std::uint64_t i = begin; i < trials && index.size() <= limit; ++i) {
+    if (filter.status && statuses.at(i) != *filter.status) continue;
+    if (filter.cell && plan.cell_of(i) != *filter.cell) continue;
+    index.push_back(i);
+  }
+  return index;
 }
 
 std::vector<double> values_of(const Plan& plan, std::uint64_t index) {
@@ -84,6 +98,26 @@ void StudyReader::look_at(const StudyEntry& entry, const Look& look) {
   look({{}, {}, nullptr});
 }
 
+/// The page from the result on the disk, of which little is read; nothing where there is none, or it is in memory.
+std::optional<TrialPage> StudyReader::stored_page(const StudyEntry& entry, const Plan& plan, const TrialFilter& filter,
+                                                  std::uint64_t begin, std::size_t limit) {
+  const StudyRecord record = catalogue_.look(entry, [](const StudyEntry& now) { return now.record; });
+  if (record.status != StudyStatus::succeeded || opened_.find(entry.id, record.revision)) return std::nullopt;
+  intact_.require(entry.home.result());
+  const ResultRows result(entry.home.result());
+  std::vector<std::uint64_t> index = passing(result, record.completed, plan, filter, begin, limit);
+  TrialPage page;
+  if (index.size() > limit) {
+    page.next = index.back();
+    index.pop_back();
+  }
+  const std::vector<TrialOutcome> outcomes = result.outcomes(index);
+  for (std::size_t row = 0; row < index.size(); ++row) {
+    page.rows.push_back({index[row], plan.cell_of(index[row]), {}, outcomes[row]});
+  }
+  return page;
+}
+
 /// The finished trials as a result. Those of a run under way are copied.
 std::shared_ptr<const KeptStudy> StudyReader::everything(const StudyEntry& entry) {
   const std::optional<StudyEntry::Run> run = catalogue_.look(entry, [](const StudyEntry& now) { return now.run; });
@@ -116,7 +150,11 @@ TrialPage StudyReader::trials(const StudyEntry& entry, const TrialFilter& filter
   const Plan plan(*entry.study);
   const std::uint64_t revision = catalogue_.state(entry).revision;
   TrialPage page;
-  look_at(entry, [&](const View& view) { page = page_of(view, plan, filter, begin, limit); });
+  if (auto stored = stored_page(entry, plan, filter, begin, limit)) {
+    page = *std::move(stored);
+  } else {
+    look_at(entry, [&](const View& view) { page = page_of(view, plan, filter, begin, limit); });
+  }
   for (TrialRow& row : page.rows) row.values = values_of(plan, row.index);
   page.names = plan.varying();
   page.revision = revision;

@@ -2,12 +2,14 @@
 
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "report/comparison.hpp"
 #include "service/catalogue.hpp"
+#include "service/intact_files.hpp"
 #include "service/opened_studies.hpp"
 #include "service/study_rows.hpp"
 #include "service/study_views.hpp"
@@ -52,12 +54,15 @@ class StudyReader {
   using Look = std::function<void(const View&)>;
 
   void look_at(const StudyEntry& entry, const Look& look);
+  [[nodiscard]] std::optional<TrialPage> stored_page(const StudyEntry& entry, const Plan& plan,
+                                                     const TrialFilter& filter, std::uint64_t begin, std::size_t limit);
   [[nodiscard]] std::shared_ptr<const KeptStudy> opened(const StudyEntry& entry);
   [[nodiscard]] std::shared_ptr<const KeptStudy> everything(const StudyEntry& entry);
   [[nodiscard]] std::optional<std::string> kept_summary(const StudyEntry& entry) const;
 
   const Catalogue& catalogue_;
   OpenedStudies opened_;
+  IntactFiles intact_{};
   StudyViews views_{};
   std::mutex comparing_{};  // one at a time: each holds two studies and their parameters
 };

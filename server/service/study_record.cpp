@@ -67,7 +67,7 @@ void write_record(const std::filesystem::path& path, const StudyRecord& record) 
                   {"revision", record.revision}};
   // What went wrong may quote the system's words in any encoding.
   const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-  write_whole_file(path, {std::as_bytes(std::span(text))});
+  write_whole_file(path, {std::as_bytes(std::span(text))}, {}, Reserve::may_be_used);
 }
 
 StudyRecord read_record(const std::filesystem::path& path) {

@@ -21,7 +21,8 @@ struct StudyRecord {
   std::uint64_t revision{0};
 };
 
-/// Writes it, whole or not at all; on return it is on the disk. @throws RunFailure
+/// Writes it, whole or not at all; on return it is on the disk, of which it may use the reserve: a full disk is what it
+/// may have to tell of. @throws RunFailure
 void write_record(const std::filesystem::path& path, const StudyRecord& record);
 
 /// @throws RunFailure where it is missing or not what write_record() writes

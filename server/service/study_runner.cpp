@@ -77,12 +77,13 @@ void StudyRunner::dispatch() {
     while (!stopping_ && begin_next()) {
     }
     stop_overtime();
+    keep_records(lock);
     if (stopping_ && running_.empty()) break;
     const auto has_news = [&] {
       return std::any_of(running_.begin(), running_.end(), [](const Running& one) { return one.has_ended; });
     };
     if (has_news()) continue;
-    if (running_.empty()) {
+    if (running_.empty() && unkept_.empty()) {
       wake_.wait(lock, [&] { return stopping_ || !queue_.empty(); });
     } else {
       wake_.wait_for(lock, interval);
@@ -144,9 +145,31 @@ void StudyRunner::stop_overtime() {
   }
 }
 
+/// Writes the records that could not be written, if they can be now.
+void StudyRunner::keep_records(std::unique_lock<std::mutex>& lock) {
+  constexpr std::chrono::seconds interval{1};
+  if (unkept_.empty() || StudyEntry::Clock::now() < next_keeping_) return;
+  std::vector<Catalogue::Entry> waiting = std::exchange(unkept_, {});
+  lock.unlock();
+  std::erase_if(waiting, [&](const Catalogue::Entry& entry) {
+    if (catalogue_.find(entry->id) != entry) return true;  // it has been removed
+    try {
+      keep_record(catalogue_, *entry);
+    } catch (const std::exception&) {
+      return false;  // why has been told
+    }
+    tell_(fmt::format("how study {} ended is on the disk now", entry->id));
+    return true;
+  });
+  lock.lock();
+  unkept_.insert(unkept_.end(), waiting.begin(), waiting.end());
+  next_keeping_ = StudyEntry::Clock::now() + interval;
+}
+
 void StudyRunner::run(Running& running) {
-  run_and_keep({catalogue_, *running.entry, threads_, turns_, limits_, tell_, trials_done_});
+  const bool is_kept = run_and_keep({catalogue_, *running.entry, threads_, turns_, limits_, tell_, trials_done_});
   const std::lock_guard lock(mutex_);
+  if (!is_kept) unkept_.push_back(running.entry);
   running.has_ended = true;
   wake_.notify_all();
 }

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "service/catalogue.hpp"
 #include "service/service_limits.hpp"
@@ -61,6 +62,7 @@ class StudyRunner {
   bool begin_next();
   void reap();
   void stop_overtime();
+  void keep_records(std::unique_lock<std::mutex>& lock);
   void run(Running& running);
 
   Catalogue& catalogue_;
@@ -76,6 +78,8 @@ class StudyRunner {
   std::condition_variable wake_{};
   std::deque<Waiting> queue_{};
   std::list<Running> running_{};
+  std::vector<Catalogue::Entry> unkept_{};        // studies that are over, whose records could not be written
+  StudyEntry::Clock::time_point next_keeping_{};  // when that is tried again
   bool stopping_{false};
   std::thread dispatcher_{};
 };

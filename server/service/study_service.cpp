@@ -45,6 +45,10 @@ std::vector<SpecError> excesses(const Study& study, const ServiceLimits& limits,
     errors.push_back({"", fmt::format("the sweeps make {} cells (at most {} here); sweep fewer values",
                                       readable_count(plan.cells()), readable_count(limits.cells))});
   }
+  if (study.horizon > limits.horizon) {
+    errors.push_back(
+        {"/horizon", fmt::format("a horizon of {} s (at most {} here); shorten it", study.horizon, limits.horizon)});
+  }
   const std::uint64_t needed = demand_of(study).memory;
   if (errors.empty() && needed > memory) {
     errors.push_back(
@@ -73,7 +77,10 @@ class StudyService::Implementation {
     std::sort(unfinished.begin(), unfinished.end(), [](const Catalogue::Entry& a, const Catalogue::Entry& b) {
       return std::pair(a->record.created, a->id) < std::pair(b->record.created, b->id);
     });
-    for (const Catalogue::Entry& entry : unfinished) runner_.enqueue(entry);
+    for (const Catalogue::Entry& entry : unfinished) {
+      tell_(fmt::format("study {} was not over when the service ended: it goes on", entry->id));
+      runner_.enqueue(entry);
+    }
     runner_.start();
   }
 
@@ -96,9 +103,11 @@ class StudyService::Implementation {
     if (auto errors = excesses(*study, limits_, runner_.memory()); !errors.empty()) {
       throw LimitExceeded(std::move(errors));
     }
+    const std::string id = study_id(*study);
+    wait_while_cancelled(id);
     const std::lock_guard lock(changing_);
     require_going();
-    if (const Catalogue::Entry known = catalogue_.find(study_id(*study))) {
+    if (const Catalogue::Entry known = catalogue_.find(id)) {
       go_on(known);
       return {catalogue_.state(*known), false};
     }
@@ -107,15 +116,23 @@ class StudyService::Implementation {
   }
 
   Removal cancel_or_remove(const std::string& id) {
-    const std::lock_guard lock(changing_);
-    require_going();
-    const Catalogue::Entry entry = known(id);
-    const StudyState state = catalogue_.state(*entry);
-    if (!is_over(state.status)) return {cancelled(*entry), false};
-    entry->home.remove();
-    catalogue_.erase(*entry);
-    reader_.forget(id);
-    return {state, true};
+    Catalogue::Entry entry;
+    {
+      const std::lock_guard lock(changing_);
+      require_going();
+      entry = known(id);
+      const StudyState state = catalogue_.state(*entry);
+      if (is_over(state.status)) {
+        entry->home.remove();
+        catalogue_.erase(*entry);
+        reader_.forget(id);
+        return {state, true};
+      }
+      if (!cancel(*entry)) return {catalogue_.state(*entry), false};
+    }
+    const StudyState state = catalogue_.wait_for_end(*entry, limits_.cancelling_time);
+    if (!is_over(state.status)) keep_record(catalogue_, *entry);
+    return {state, false};
   }
 
   [[nodiscard]] Catalogue::Entry known(const std::string& id) const {
@@ -159,8 +176,8 @@ class StudyService::Implementation {
 
   /// Lets a study that was cancelled or has failed run again.
   void go_on(const Catalogue::Entry& entry) {
-    if (catalogue_.look(*entry, [](const StudyEntry& now) { return now.run && now.run->is_cancelled; })) {
-      catalogue_.wait_for_end(*entry);
+    if (is_being_cancelled(*entry)) {
+      throw QueueFull("the study is being cancelled, and its blocks in flight take long; try again later", 10);
     }
     const StudyStatus status = catalogue_.state(*entry).status;
     if (status != StudyStatus::cancelled && status != StudyStatus::failed) return;
@@ -173,18 +190,28 @@ class StudyService::Implementation {
     runner_.enqueue(entry);
   }
 
-  /// Cancels a study that waits or runs, on the disk too before this returns.
-  StudyState cancelled(StudyEntry& entry) {
-    if (!runner_.withdraw(entry)) {
-      catalogue_.change(entry, [](StudyEntry& now) {
-        if (!now.run) return;
-        now.run->is_cancelled = true;
-        now.run->stop.request_stop();
-      });
-      catalogue_.wait_for_end(entry);
+  /// Cancels a study that waits, on the disk too, or one that runs. @return whether its run is still to end
+  bool cancel(StudyEntry& entry) {
+    if (runner_.withdraw(entry)) {
+      set_status(entry, StudyStatus::cancelled, utc_now());
+      return false;
     }
-    if (!is_over(catalogue_.state(entry).status)) set_status(entry, StudyStatus::cancelled, utc_now());
-    return catalogue_.state(entry);
+    return catalogue_.change(entry, [](StudyEntry& now) {
+      if (!now.run) return false;
+      now.run->is_cancelled = true;
+      now.run->stop.request_stop();
+      return true;
+    });
+  }
+
+  [[nodiscard]] bool is_being_cancelled(const StudyEntry& entry) const {
+    return catalogue_.look(entry, [](const StudyEntry& now) { return now.run && now.run->is_cancelled; });
+  }
+
+  /// Whoever submits a study that is being cancelled waits for its end, and only they.
+  void wait_while_cancelled(const std::string& id) const {
+    const Catalogue::Entry entry = catalogue_.find(id);
+    if (entry && is_being_cancelled(*entry)) catalogue_.wait_for_end(*entry, limits_.cancelling_time);
   }
 
   void set_status(StudyEntry& entry, StudyStatus status, const std::optional<std::string>& finished) {

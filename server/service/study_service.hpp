@@ -120,8 +120,11 @@ class StudyService {
   [[nodiscard]] std::optional<std::filesystem::path> result_file(const std::string& id) const;
 
   /// Cancels a study that waits or runs: no further block is begun, the finished trials are kept, and it goes on when
-  /// it is submitted again. Removes one that is over, with all its files.
-  /// @return its state: cancelled, or succeeded where it was about to end anyway; the last one of a study removed
+  /// it is submitted again. Removes one that is over, with all its files. Holds nobody up who does not ask for the very
+  /// study.
+  /// @return its state: cancelled, or succeeded where it was about to end anyway; still running where the blocks in
+  ///         flight take longer than cancelling_time, after which it is cancelled, also when the process ends before;
+  ///         the last state of a study removed
   struct Removal {
     StudyState state;
     bool removed{false};

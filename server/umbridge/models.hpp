@@ -19,7 +19,7 @@ struct ModelReply {
 class Models {
  public:
   /// @param service  must outlive this
-  explicit Models(StudyService& service) : study_(service) {}
+  explicit Models(StudyService& service) : trial_(service.limits().horizon), study_(service) {}
 
   /// GET /Info.
   [[nodiscard]] static std::string info();

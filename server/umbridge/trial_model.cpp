@@ -61,6 +61,10 @@ std::vector<double> TrialModel::evaluate(std::span<const double> input, const Js
     put(spec, names[i], moved(names[i], find_input(names[i])->field(undisturbed), input[i]));
   }
   const Study study = study_of(spec);
+  if (study.horizon > longest_horizon_) {
+    throw ModelRefusal(ModelRefusal::invalid_input, fmt::format("config.spec: a horizon of {} s (at most {} here)",
+                                                                study.horizon, longest_horizon_));
+  }
   IntegratorChoice integrator = study.integrator;
   integrator.metrics = false;  // nobody asks for them
   const TrialOutcome outcome = make_runner(integrator)->run(parameters_of(study));

@@ -15,10 +15,16 @@ namespace steerstat {
 /// cycles].
 class TrialModel final : public Model {
  public:
+  /// @param longest_horizon  [s] that a trial may have, which nothing interrupts
+  explicit TrialModel(double longest_horizon) : longest_horizon_(longest_horizon) {}
+
   [[nodiscard]] std::string_view name() const override { return "trial"; }
   [[nodiscard]] std::size_t inputs(const Json& config) const override;
   [[nodiscard]] std::size_t outputs() const override { return 3; }
   [[nodiscard]] std::vector<double> evaluate(std::span<const double> input, const Json& config) const override;
+
+ private:
+  double longest_horizon_;
 };
 
 }  // namespace steerstat

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "api/acceptance.hpp"
 #include "api_fixture.hpp"
 
 namespace steerstat::testing {
@@ -61,6 +62,37 @@ TEST_F(ApiCase, MethodsThatDoNotApplyAreToldWhichDo) {
   EXPECT_EQ(response.status, 405);
   EXPECT_EQ(response.field("Allow"), "POST, GET, HEAD");
   EXPECT_EQ(ask(port, request("OPTIONS", "/healthz")).status, 405);
+}
+
+TEST_F(ApiCase, WhatAClientDoesNotTakeIsNotSent) {
+  const std::string study = finished();
+  const RawResponse refused = get(study, "Accept: application/xml, text/*\r\n");
+  EXPECT_EQ(refused.status, 406);
+  EXPECT_EQ(refused.field("Content-Type"), "application/problem+json");
+  EXPECT_EQ(get(study, "Accept: text/html\r\nAccept: application/json\r\n").status, 200);
+  EXPECT_EQ(get(study + "/results.h5", "Accept: application/json\r\n").status, 406);
+  EXPECT_EQ(get("/metrics", "Accept: text/plain;version=0.0.4;q=0.5\r\n").status, 200);
+  EXPECT_EQ(get("/Info", "Accept: text/html\r\n").status, 200) << "clients of UM-Bridge say what they like";
+}
+
+TEST(Accepts, GoesByTheMostSpecificRange) {
+  for (const std::string taken :
+       {"", " ", "*/*", "application/*", "Application/JSON", "text/html, */*;q=0.1", "application/json;q=0.001",
+        "application/*;q=0, application/json", "a, ,application/json;a=b"}) {
+    EXPECT_TRUE(accepts(taken, "application/json")) << taken;
+  }
+  for (const std::string refused :
+       {"text/html", "application/jso", "application/json;q=0", "*/*, application/json;q=0.0", "application/*;q=0, */*",
+        "*", "application/", ",", "applicationx/*"}) {
+    EXPECT_FALSE(accepts(refused, "application/json")) << refused;
+  }
+}
+
+TEST(ApiOptions, LeaveWorkersForThoseWhoAreAnsweredAtOnce) {
+  const ApiOptions options;
+  EXPECT_LE(options.event_streams + options.downloads + options.computations + options.evaluations + options.summaries +
+                options.readings + 16,
+            DoorLimits{}.workers);
 }
 
 TEST_F(ApiCase, QueriesAreCheckedToo) {

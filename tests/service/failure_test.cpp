@@ -161,6 +161,35 @@ TEST_F(Failure, OfAnyStepOfTheResultIsMadeGoodByTheNextSubmission) {
   }
 }
 
+TEST_F(Failure, ToNoteHowAStudyEndedIsToldAndMadeGoodOnceItCanBe) {
+  service.reset();
+  limits.wall_time = std::chrono::seconds(1);
+  begin();
+  const std::string id = service->submit(long_spec()).state.id;
+  wait_for(id, StudyStatus::running);
+  const fs::path record = home(id) / "state.json";
+  fs::remove(record);
+  fs::create_directory(record);  // in the way of every further record
+  EXPECT_EQ(wait_for_end(id).status, StudyStatus::failed);
+  fs::remove(record);
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  while (!fs::exists(record) && std::chrono::steady_clock::now() < deadline) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  restart();
+  EXPECT_THAT(told, Contains(HasSubstr("how study " + id + " ended (failed) is not on the disk")));
+  EXPECT_THAT(told, Contains(HasSubstr("how study " + id + " ended is on the disk now")));
+  EXPECT_EQ(service->state(id)->status, StudyStatus::failed) << "it does not run again by itself";
+  EXPECT_THAT(service->state(id)->failure.value_or(""), HasSubstr("as long as a study may"));
+}
+
+TEST_F(Failure, ThatNobodyCouldNoteIsToldAtTheNextStart) {
+  const std::string id = interrupted(quick_spec(many_trials));
+  begin();
+  EXPECT_THAT(told, Contains("study " + id + " was not over when the service ended: it goes on"));
+  wait_for(id, StudyStatus::succeeded);
+}
+
 TEST_F(Failure, OfTheDiskToHaveRoomRefusesAStudyBeforeItBegins) {
   service.reset();
   limits.disk_headroom = std::uint64_t{1} << 60U;

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <atomic>
+
 #include "core/errors.hpp"
 #include "report/summary.hpp"
 #include "service_fixture.hpp"
@@ -122,6 +125,73 @@ TEST_F(Lifecycle, ACancelledStudyKeepsItsTrialsAndGoesOnWhenItIsSubmittedAgain) 
   wait_for(id, StudyStatus::succeeded);
   EXPECT_EQ(service->counters().trials_done, many_trials - cancelled.completed);
   expect_undisturbed(id, spec);
+}
+
+TEST_F(Lifecycle, CancellingAStudyWhoseTrialsTakeLongHoldsNobodyElseUp) {
+  const std::string id = service->submit(slow_spec()).state.id;
+  wait_for_work(id);
+  std::atomic<bool> over{false};
+  std::jthread canceller([&] {
+    const StudyState state = service->cancel_or_remove(id).state;
+    EXPECT_EQ(state.status, StudyStatus::cancelled);
+    EXPECT_GE(state.completed, 16U) << "the blocks in flight were waited for";
+    over = true;
+  });
+  unsigned others = 0;  // answered meanwhile; if one had to wait for the other, one at most
+  while (!over) {
+    service->submit(quick_spec(10));
+    if (!over) ++others;
+  }
+  EXPECT_GE(others, 3U);
+}
+
+TEST_F(Lifecycle, ACancelledStudyThatStillRunsIsSaidToRunAndIsCancelledInTheEnd) {
+  service.reset();
+  limits.cancelling_time = std::chrono::milliseconds(0);
+  begin();
+  const std::string id = service->submit(slow_spec()).state.id;
+  wait_for_work(id);
+  const auto [state, removed] = service->cancel_or_remove(id);
+  EXPECT_FALSE(removed);
+  EXPECT_EQ(state.status, StudyStatus::running);
+  EXPECT_THAT(testing_store::bytes_of(home(id) / "state.json"), HasSubstr("cancelled")) << "whatever comes in between";
+  EXPECT_THROW(service->submit(slow_spec()), QueueFull) << "it cannot go on before it has ended";
+  service->submit(quick_spec(10));
+  EXPECT_EQ(wait_for_end(id).status, StudyStatus::cancelled);
+  EXPECT_FALSE(service->submit(slow_spec()).created);
+  wait_for(id, StudyStatus::running);
+  service->cancel_or_remove(id);
+}
+
+TEST_F(Lifecycle, APageOfAFinishedStudyIsReadFromItsMiddle) {
+  const std::string spec = quick_spec(70'000);
+  const std::string id = service->submit(spec).state.id;
+  wait_for(id, StudyStatus::succeeded);
+  const StoredStudy stored = read_result(service->result_file(id).value());
+  const std::vector<TrialOutcome>& outcomes = stored.result.trials.outcomes;
+  const TrialPage page = service->trials(id, {}, 65'530, 10);
+  ASSERT_EQ(page.rows.size(), 10U);
+  EXPECT_EQ(page.next, 65'540U);
+  for (std::size_t row = 0; row < 10; ++row) {
+    EXPECT_EQ(page.rows[row].index, 65'530 + row);
+    EXPECT_EQ(page.rows[row].outcome, outcomes[65'530 + row]);
+  }
+  EXPECT_EQ(service->trials(id, {}, 69'999, 10).rows.size(), 1U);
+  EXPECT_FALSE(service->trials(id, {}, 69'999, 10).next);
+  EXPECT_THAT(service->trials(id, {}, 70'000, 10).rows, IsEmpty());
+  const Status status = outcomes[65'536].status;
+  std::size_t checked = 0;
+  for (std::uint64_t begin = 0; const TrialRow& row : service->trials(id, {status, {}}, begin, 80'000).rows) {
+    while (outcomes[begin].status != status) ++begin;
+    ASSERT_EQ(row.index, begin++);
+    ++checked;
+  }
+  EXPECT_EQ(checked, static_cast<std::size_t>(std::count_if(outcomes.begin(), outcomes.end(),
+                                                            [&](const auto& one) { return one.status == status; })));
+  std::string bytes = testing_store::bytes_of(home(id) / "results.h5");
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+  testing_store::set_bytes(home(id) / "results.h5", bytes);
+  EXPECT_THROW(static_cast<void>(service->trials(id, {}, 0, 10)), RunFailure) << "it has changed since it was checked";
 }
 
 TEST_F(Lifecycle, AStudyThatIsOverIsRemovedFromTheDisk) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -36,6 +37,12 @@ inline std::string long_spec(std::uint64_t seed = 1) {
       "initial_state": {"q2": {"uniform": [-3.1, 3.1]}}, "audit": {"trials": 0}, "name": "long",
       "sampling": {"trials": 1000000, "seed": )" +
          std::to_string(seed) + "}}";
+}
+
+/// Blocks of trials that take long, a second or so, which nothing interrupts.
+inline std::string slow_spec() {
+  return R"({"integrator": {"method": "cvode", "tolerance": 1e-12}, "horizon": 100, "plant": {"f2": 0.04},
+      "audit": {"trials": 0}, "sampling": {"trials": 100}})";
 }
 
 /// A service in a directory of the test's own.
@@ -80,6 +87,13 @@ class ServiceCase : public ::testing::Test {
   void wait_for_kept_trials(const std::string& id) {
     wait_for(id, StudyStatus::running);
     while (service->trials(id, {}, 0, 1).rows.empty()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+
+  /// Waits until a study is at work: it has used the processors for a while.
+  void wait_for_work(const std::string& id) {
+    wait_for(id, StudyStatus::running);
+    const std::clock_t begin = std::clock();
+    while (std::clock() - begin < CLOCKS_PER_SEC / 10) std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
 
   /// Expects the result of a study to be that of an undisturbed run, to the bit.
