@@ -103,8 +103,10 @@ Handle boolean() {
 }
 
 Handle create_group(hid_t parent, const std::string& name) {
-  return {H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
-          "cannot create the group " + name};
+  const std::string what = "cannot create the group " + name;
+  const Handle properties(H5Pcreate(H5P_GROUP_CREATE), H5Pclose, what);
+  checked(H5Pset_obj_track_times(properties.id(), false), what);  // the same trials, the same bytes
+  return {H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, properties.id(), H5P_DEFAULT), H5Gclose, what};
 }
 
 Handle open_group(hid_t parent, const std::string& name) {

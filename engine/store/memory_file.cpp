@@ -67,8 +67,10 @@ Handle create(Bytes& closed) {
   const Handle access = access_in_memory();
   H5FD_file_image_callbacks_t callbacks = keeping_in(closed);
   checked(H5Pset_file_image_callbacks(access.id(), &callbacks), "cannot keep the file in memory");
-  return {H5Fcreate(unused_name().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose,
-          "cannot create the file in memory"};
+  const char* const what = "cannot create the file in memory";
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, what);
+  checked(H5Pset_obj_track_times(creation.id(), false), what);  // of the root group: the same trials, the same bytes
+  return {H5Fcreate(unused_name().c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose, what};
 }
 
 /// The end-of-file address in the superblock, version 2 or 3 [The HDF Group, HDF5 File Format Specification 3.0, II.A].

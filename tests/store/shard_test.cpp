@@ -53,6 +53,19 @@ TEST_F(ShardFile, IsTheSameBytesWhenWrittenAgain) {
   EXPECT_EQ(bytes_of(path_), bytes);
 }
 
+TEST_F(ShardFile, HoldsNoTimesThatWouldTellWhenItWasWritten) {
+  // An object's header, version 2: OHDR, 2, flags, of which bit 5 says that times follow
+  // [The HDF Group, HDF5 File Format Specification 3.0, IV.A.1.b].
+  const std::string bytes = bytes_of(path_);
+  const std::string header{'O', 'H', 'D', 'R', 2};
+  std::size_t headers = 0;
+  for (std::size_t at = bytes.find(header); at != std::string::npos; at = bytes.find(header, at + 1)) {
+    EXPECT_EQ(static_cast<unsigned char>(bytes.at(at + header.size())) & 0x20U, 0U) << "at " << at;
+    ++headers;
+  }
+  EXPECT_GT(headers, 3U);
+}
+
 TEST_F(ShardFile, OfAStudyIsOneOfEveryExtensionOfIt) {
   EXPECT_EQ(complaint(origin_of(sample_study(1000)), 3000), "");
 }
