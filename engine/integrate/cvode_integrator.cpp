@@ -25,6 +25,7 @@ namespace {
 constexpr sunindextype state_size = 4;
 constexpr double guard_precision = 1e-10;  // [s] crossings closer than this are one
 constexpr double finest = 1e-15;           // relative error that doubles still tell apart
+constexpr double coarsest = 1e3;           // how much a stalled method's tolerances are loosened, at most
 constexpr long start_steps = 50;           // CVODE starts at order 1, with steps far shorter than those to come
 constexpr long most_steps = 10'000'000;    // in one phase; the pace of a step a microsecond makes more of them a hang
 
@@ -115,7 +116,7 @@ int root_functions(realtype t, N_Vector y, realtype* g, void* user) {
 }  // namespace
 
 struct CvodeIntegrator::Solver final : DenseOutput {
-  explicit Solver(double tolerance);
+  explicit Solver(double wanted);
 
   Arrival advance(double t0, const State<double>& x0, double t_end, StepObserver* observer, ExertionMeter* meter);
 
@@ -135,6 +136,7 @@ struct CvodeIntegrator::Solver final : DenseOutput {
   [[nodiscard]] Moment moment(double t, const State<double>& x) const;
   std::optional<double> find_crossing(const Moment& before, const Moment& after, bool rooted, double to);
   [[nodiscard]] bool restart(double now, double duration);
+  [[nodiscard]] bool loosen(double factor);
   [[nodiscard]] bool guard_rooted() const;
   [[nodiscard]] double step_end() const;
 
@@ -144,15 +146,18 @@ struct CvodeIntegrator::Solver final : DenseOutput {
   NonlinearSolver nonlinear_solver;
   Cvode cvode;
   PhaseContext user{};
+  double tolerance;                       // as asked for
+  double looseness{1.0};                  // of the tolerances in force, over those asked for
   double origin{0.0};                     // [s] the phase's start
   std::array<bool, guard_count> armed{};  // the guard has been positive in this phase
 };
 
-CvodeIntegrator::Solver::Solver(double tolerance)
+CvodeIntegrator::Solver::Solver(double wanted)
     : y(N_VNew_Serial(state_size, context)),
       work(N_VNew_Serial(state_size, context)),
       nonlinear_solver(y ? SUNNonlinSol_FixedPoint(y.get(), 0, context) : nullptr),
-      cvode(CVodeCreate(CV_ADAMS, context)) {
+      cvode(CVodeCreate(CV_ADAMS, context)),
+      tolerance(wanted) {
   require(y && work, "N_VNew_Serial");
   require(nonlinear_solver != nullptr, "SUNNonlinSol_FixedPoint");
   require(cvode != nullptr, "CVodeCreate");
@@ -165,12 +170,7 @@ CvodeIntegrator::Solver::Solver(double tolerance)
   require(CVodeSetErrHandlerFn(memory, stay_silent, nullptr) == CV_SUCCESS, "CVodeSetErrHandlerFn");
   require(CVodeInit(memory, right_hand_side, 0.0, y.get()) == CV_SUCCESS, "CVodeInit");
   require(CVodeSetUserData(memory, &user) == CV_SUCCESS, "CVodeSetUserData");
-  // CVODE's estimate is of one step's error, and steps are many: its tolerances are finer than what they should add up
-  // to. The passive joint coasts on its speed for up to minutes, so that is held finest.
-  const double relative = std::max(tolerance / 100.0, finest);
-  const double absolute = std::max(tolerance / 20.0, finest);
-  store({absolute, absolute, absolute, relative}, work.get());
-  require(CVodeSVtolerances(memory, relative, work.get()) == CV_SUCCESS, "CVodeSVtolerances");
+  require(loosen(1.0), "CVodeSVtolerances");
   require(CVodeSetNonlinearSolver(memory, nonlinear_solver.get()) == CV_SUCCESS, "CVodeSetNonlinearSolver");
   require(CVodeSetMaxHnilWarns(memory, -1) == CV_SUCCESS, "CVodeSetMaxHnilWarns");
   require(CVodeRootInit(memory, root_count, root_functions) == CV_SUCCESS, "CVodeRootInit");
@@ -218,6 +218,17 @@ bool CvodeIntegrator::Solver::guard_rooted() const {
   std::array<int, root_count> found{};
   CVodeGetRootInfo(cvode.get(), found.data());
   return std::any_of(found.begin(), found.begin() + guard_count, [](int sign) { return sign != 0; });
+}
+
+/// Puts tolerances of `factor` times those asked for in force. @return whether that went well
+bool CvodeIntegrator::Solver::loosen(double factor) {
+  // CVODE's estimate is of one step's error, and steps are many: its tolerances are finer than what they should add up
+  // to. The passive joint coasts on its speed for up to minutes, so that is held finest.
+  const double relative = factor * std::max(tolerance / 100.0, finest);
+  const double absolute = factor * std::max(tolerance / 20.0, finest);
+  store({absolute, absolute, absolute, relative}, work.get());
+  looseness = factor;
+  return CVodeSVtolerances(cvode.get(), relative, work.get()) == CV_SUCCESS;
 }
 
 /// Starts the method anew where y stands, so that no step reaches over a kink. @return whether that went well
@@ -269,7 +280,7 @@ Arrival CvodeIntegrator::Solver::advance(double t0, const State<double>& x0, dou
   if (!is_finite(x0)) return {t0, x0, Cause::failure};
   origin = t0;
   store(x0, y.get());
-  if (!restart(0.0, duration)) return {t0, x0, Cause::failure};
+  if ((looseness > 1.0 && !loosen(1.0)) || !restart(0.0, duration)) return {t0, x0, Cause::failure};
 
   Moment before = moment(0.0, x0);
   for (std::size_t i = 0; i < guard_count; ++i) armed[i] = before.guards[i] > 0.0;
@@ -289,11 +300,13 @@ Arrival CvodeIntegrator::Solver::advance(double t0, const State<double>& x0, dou
     if (crossing) return {t, interpolate(*crossing), Cause::guard};
     if (rooted) return {t, after.x, Cause::guard};
     if (ended) return {t, after.x, Cause::time};
-    if (kinked) {
+    // Where the rounding of the motion's rate, not its bend, makes CVODE's steps shrink without end, tolerances that
+    // doubles can meet let it go on.
+    const bool stalled = !kinked && now - before.t < least_step && steps - started >= start_steps;
+    if (stalled && (looseness >= coarsest || !loosen(10.0 * looseness))) return {t, after.x, Cause::failure};
+    if (kinked || stalled) {
       if (!restart(now, duration)) return {t, after.x, Cause::failure};
       started = steps + 1;
-    } else if (now - before.t < least_step && steps - started >= start_steps) {
-      return {t, after.x, Cause::failure};
     }
     before = after;
   }

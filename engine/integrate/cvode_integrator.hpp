@@ -17,8 +17,9 @@ namespace steerstat {
 class CvodeIntegrator {
  public:
   /// @param tolerance  > 0. CVODE's relative tolerance is a hundredth of it, the absolute ones are a twentieth and, for
-  ///   q2_dot, a hundredth, none below 1e-15. With 1e-9, settling times of perturbed trials are right to 1e-6 s
-  ///   (median), as a test holds.
+  ///   q2_dot, a hundredth, none below 1e-15; where rounding makes a phase's steps shrink below 1e-12 s, it goes on
+  ///   with tolerances ten times as large, up to a thousand times, before it fails. With 1e-9, settling times of
+  ///   perturbed trials are right to 1e-6 s (median), as a test holds.
   /// @throws RunFailure where SUNDIALS cannot be set up
   explicit CvodeIntegrator(double tolerance);
   ~CvodeIntegrator();

@@ -203,11 +203,12 @@ double exertion_difference(const TrialOutcome& a, const TrialOutcome& b) {
                    relative(a.peak_force, b.peak_force), relative(a.peak_stroke, b.peak_stroke)});
 }
 
-/// Two engines, two methods, one answer: the same course, ending at the same time, with the same effort and peaks.
+/// Two engines, two methods, one answer: the same course, ending at the same time, with the same effort and peaks. Both
+/// at fine tolerances: long trials amplify a step's error ten-thousandfold.
 TEST(ImperfectTrials, LockstepAgreesWithTheReference) {
   const std::vector<TrialParameters> trials = imperfect_study(compared_trials());
-  const auto ours = run_all(trials, {IntegratorChoice::Method::lockstep, 1e-10});
-  const auto reference = run_all(trials, {IntegratorChoice::Method::cvode, 1e-12});
+  const auto ours = run_all(trials, {IntegratorChoice::Method::lockstep, 1e-12});
+  const auto reference = run_all(trials, {IntegratorChoice::Method::cvode, 1e-13});
   std::vector<double> differences;
   std::vector<double> exertions;
   std::size_t converged = 0;
@@ -221,7 +222,7 @@ TEST(ImperfectTrials, LockstepAgreesWithTheReference) {
     exertions.push_back(exertion_difference(ours[i], reference[i]));
     if (ours[i].status == Status::converged) differences.push_back(std::abs(ours[i].end_time - reference[i].end_time));
   }
-  EXPECT_LE(other_courses, 1 + trials.size() / 500);
+  EXPECT_LE(other_courses, trials.size() / 500);
   EXPECT_GT(converged, trials.size() / 10) << "too few to say anything";
   ASSERT_FALSE(differences.empty());
   std::ranges::sort(differences);
@@ -234,11 +235,21 @@ TEST(ImperfectTrials, LockstepAgreesWithTheReference) {
       "peaks: median %.3g, nine in ten within %.3g, largest %.3g\n",
       other_courses, trials.size(), differences[differences.size() / 2], differences.back(),
       exertions[exertions.size() / 2], exertions[exertions.size() * 9 / 10], exertions.back());
-  EXPECT_LT(differences[differences.size() / 2], 1e-6);
-  EXPECT_LT(differences.back(), 1e-4);
+  EXPECT_LT(differences[differences.size() / 2], 1e-7);
+  EXPECT_LT(differences.back(), 1e-5);
   EXPECT_LT(exertions[exertions.size() / 2], 1e-7);
   // Long trials amplify rounding, their efforts with their settling times.
   EXPECT_LT(exertions[exertions.size() * 9 / 10], 1e-6);
+}
+
+/// The rounding of friction's rate made CVODE's steps shrink without end in the 9th cycle of this trial.
+TEST(ImperfectTrials, RoundingDoesNotStopTheReferenceAtItsFinest) {
+  const TrialParameters trial = imperfect_study(20)[19];
+  const TrialOutcome ours = make_runner({IntegratorChoice::Method::lockstep, 1e-12})->run(trial);
+  const TrialOutcome reference = make_runner({IntegratorChoice::Method::cvode, 1e-12})->run(trial);
+  EXPECT_EQ(reference.status, Status::converged);
+  EXPECT_TRUE(same_course(ours, reference));
+  EXPECT_NEAR(ours.end_time, reference.end_time, 1e-5);
 }
 
 }  // namespace
