@@ -51,6 +51,16 @@ export function HeatMap({ sweeps }: { sweeps: Sweeps }) {
     return { trials, successes, low, high, rate: trials > 0 ? successes / trials : null, time: cells.settling_time[cell] ?? null };
   };
   const look = looked === null ? null : text(looked);
+  const onKeyDown = (event: KeyboardEvent) => {
+    const step = { ArrowRight: [0, 1], ArrowLeft: [0, -1], ArrowDown: [1, 0], ArrowUp: [-1, 0] }[event.key];
+    if (!step) return;
+    event.preventDefault();
+    const cellsInSight = rows.map((j) => columns.map((i) => cellAt(i, j)));
+    const row = cellsInSight.findIndex((each) => looked !== null && each.includes(looked));
+    const column = row < 0 ? -1 : (cellsInSight[row] ?? []).indexOf(looked ?? -1);
+    const to = (place: number, by: number, size: number) => Math.min(size - 1, Math.max(0, place + by));
+    setLooked(row < 0 ? cellAt(columns[0] ?? 0, rows[0] ?? 0) : (cellsInSight[to(row, step[0] ?? 0, rows.length)]?.[to(column, step[1] ?? 0, columns.length)] ?? null));
+  };
   const valuesOf = (cell: number) => {
     let rest = cell;
     return [...axes].reverse().map((axis) => {
@@ -75,7 +85,7 @@ export function HeatMap({ sweeps }: { sweeps: Sweeps }) {
           ))}
         </div>
       )}
-      <div class="heat-scroll" tabIndex={0} role="group" aria-label="Heat map">
+      <div class="heat-scroll" tabIndex={0} role="group" aria-label="Heat map: arrow keys go through its cells" onKeyDown={onKeyDown}>
         <table class={`heat ${isSmall ? "" : "dense"}`} onMouseLeave={() => setLooked(null)}>
           <caption class="unseen">{shown === "rate" ? "Success rate" : "Median settling time"} by {symbol(x.input)}{y ? ` and ${symbol(y.input)}` : ""}</caption>
           <colgroup>
@@ -123,7 +133,7 @@ export function HeatMap({ sweeps }: { sweeps: Sweeps }) {
             {" "}(interval {percentRange(look.low, look.high)}), median settling time {quantity(look.time, "s")}
           </>
         ) : (
-          <span class="muted">Each cell's interval (level {number(100 * sweeps.level)} %) is told where you point.</span>
+          <span class="muted">Each cell's interval (level {number(100 * sweeps.level)} %) is told where you point, or go by the arrow keys.</span>
         )}
       </p>
     </Card>
