@@ -61,6 +61,8 @@ function Sampling({ edited }: { edited: Edited }) {
   const trials = edited.get(["sampling", "trials"]);
   const seed = edited.get(["sampling", "seed"]);
   const mistakes = mistakesAt(edited.mistakes, ["sampling"]).filter(({ pointer }) => !isWithin(pointer, correlationPath));
+  const isWrong = (key: string) => mistakesAt(mistakes, ["sampling", key]).length > 0;
+  const described = mistakes.length > 0 ? id : undefined;
   const whole = (text: string) => {
     if (text.trim() === "") return undefined;
     const value = parseNumber(text.replace(/,/g, ""));
@@ -70,13 +72,13 @@ function Sampling({ edited }: { edited: Edited }) {
     <div class={`field sampling ${mistakes.length > 0 ? "wrong" : ""}`} data-pointer="/sampling">
       <div class="field-name"><span>Sampling</span><span class="field-hint">How the numbers that vary get their values</span></div>
       <div class="field-control">
-        <select aria-label="Sampling: method" value={chosen} aria-describedby={mistakes.length > 0 ? id : undefined} onChange={(event) => edited.set(["sampling", "method"], event.currentTarget.value)}>
+        <select aria-label="Sampling: method" value={chosen} aria-invalid={isWrong("method")} aria-describedby={described} onChange={(event) => edited.set(["sampling", "method"], event.currentTarget.value)}>
           {samplingMethods.map((each) => <option key={each.value} value={each.value}>{each.text}</option>)}
         </select>
         {chosen !== "grid" && chosen !== "explicit" && (
-          <ReadInput label={chosen === "sobol_indices" ? "Rows" : "Trials"} value={typeof trials === "number" ? trials : undefined} show={String} read={whole} onValue={(next) => edited.set(["sampling", "trials"], next)} placeholder="1" wrong="a whole number" inputMode="numeric" />
+          <ReadInput label={chosen === "sobol_indices" ? "Rows" : "Trials"} value={typeof trials === "number" ? trials : undefined} show={String} read={whole} onValue={(next) => edited.set(["sampling", "trials"], next)} placeholder="1" wrong="a whole number" inputMode="numeric" isInvalid={isWrong("trials")} describedBy={described} />
         )}
-        <ReadInput label="Seed" value={typeof seed === "number" ? seed : undefined} show={String} read={whole} onValue={(next) => edited.set(["sampling", "seed"], next)} placeholder="1" wrong="a whole number" inputMode="numeric" />
+        <ReadInput label="Seed" value={typeof seed === "number" ? seed : undefined} show={String} read={whole} onValue={(next) => edited.set(["sampling", "seed"], next)} placeholder="1" wrong="a whole number" inputMode="numeric" isInvalid={isWrong("seed")} describedBy={described} />
       </div>
       <Mistakes mistakes={mistakes} id={id} />
     </div>
