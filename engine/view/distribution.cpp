@@ -1,9 +1,9 @@
 #include "view/distribution.hpp"
 
 #include <algorithm>
-#include <boost/sort/spreadsort/float_sort.hpp>
 
 #include "statistics/distribution_band.hpp"
+#include "statistics/sample.hpp"
 
 namespace steerstat {
 namespace {
@@ -36,7 +36,7 @@ EmpiricalDistribution empirical_distribution(std::string metric, std::string uni
   result.metric = std::move(metric);
   result.unit = std::move(unit);
   result.trials = values.size();
-  boost::sort::spreadsort::float_sort(values.begin(), values.end());
+  sort_ascending(values);
   const std::vector<std::size_t> ranks = shown_ranks(values.size());
   const auto n = static_cast<double>(values.size());
   for (std::size_t k = 0; k < ranks.size(); ++k) {

@@ -12,6 +12,27 @@
 namespace steerstat {
 namespace {
 
+TEST(SortAscending, OrdersNumbersOfEverySignAndSizeAsComparingDoes) {
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> exponent(0.0, 60.0);
+  for (const std::size_t size : {0U, 1U, 2U, 300U, 5000U}) {  // short samples are compared, long ones go by digits
+    std::vector<double> sample;
+    for (std::size_t i = 0; i < size; ++i) {
+      const double magnitude = std::exp2(std::round(exponent(random)));
+      sample.push_back(i % 3 == 0 ? -magnitude : magnitude);
+    }
+    if (size > 2) {
+      sample[0] = std::numeric_limits<double>::infinity();
+      sample[1] = -std::numeric_limits<double>::denorm_min();
+      sample[2] = 0.0;
+    }
+    std::vector<double> sorted = sample;
+    std::sort(sorted.begin(), sorted.end());
+    sort_ascending(sample);
+    EXPECT_EQ(sample, sorted);
+  }
+}
+
 TEST(Quantile, MeetsDefinitionSeven) {
   // R: quantile(c(1, 2, 4, 8, 16), c(.05, .25, .5, .6, .95)) of type 7, its default.
   const std::vector<double> sorted{1.0, 2.0, 4.0, 8.0, 16.0};
