@@ -37,7 +37,7 @@ def spec_of(trials, seed):
 def specs_of(number):
     """The studies of a round: one that others follow, one that extends it, and small ones that come in between."""
     seed = 1000 * number
-    return [spec_of(40_000, seed), spec_of(60_000, seed), *(spec_of(300 + i, seed + 1 + i) for i in range(6))]
+    return [spec_of(40_000, seed), spec_of(60_000, seed), *(spec_of(300 + i, seed + 1 + i) for i in range(3))]
 
 
 class Round:

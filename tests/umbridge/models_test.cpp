@@ -94,6 +94,8 @@ TEST_F(UmBridge, SaysWhatIsWrongWithAnInput) {
       R"({"name": "trial", "input": [[0, 0, 0, 0]], "config": {"spec": {"plant": {"I2": {"uniform": [1, 2]}}}}})",
       "InvalidInput", "plant.I2 varies");
   expect_refusal("Evaluate", R"({"name": "trial", "input": [[0, 0, 0, 0]], "config": 7})", "InvalidInput", "config");
+  expect_refusal("Evaluate", R"({"name": "trial", "input": [[0, 0, 0, 0]], "config": {"spec": {"horizon": 20001}}})",
+                 "InvalidInput", "at most 20000 here");
 }
 
 TEST_F(UmBridge, AStudysRateIsThatOfTheServicesStudy) {
