@@ -35,6 +35,12 @@ ExitCode run(const Request& request) {
   if (const PageFiles files = embedded_page(); !files.absence.empty()) throw RunFailure(missing_page(files));
   check_outputs({{"--output", request.output}}, {{"the result file", request.file}});
   const StoredStudy stored = read_result(request.file);
+  if (seeks_failures(stored.study.sampling.method)) {
+    throw BadUsage(
+        fmt::format("{}: its trials are drawn where failures are, and the page's figures count trials as they "
+                    "come; use show, or export and weigh them",
+                    request.file));
+  }
   const Summary summary = summarise(stored.study, stored.result);
   ReportOptions options;
   options.file = std::filesystem::path(request.file).filename().string();

@@ -23,6 +23,8 @@
 #include "run_approximation.hpp"
 #include "simd_choice.hpp"
 #include "spec_file.hpp"
+#include "store/result_file.hpp"
+#include "study/subset_simulation.hpp"
 #include "study_report.hpp"
 
 namespace steerstat {
@@ -45,6 +47,8 @@ with, it begins at the beginning.
 
 --shard I/N runs the I-th of N parts of the study's trials, to be put together by steerstat merge; it is neither audited
 nor judged, and a "stop" in the spec is heeded by merge.
+
+A study by subset_simulation runs whole: its trials follow from those before.
 
 Under mpirun, or srun --mpi=pmix, all ranks run the study together, each on --threads of its own, and rank 0 alone reads
 the spec, reports and writes the result (where the program was built with MPI).
@@ -160,6 +164,40 @@ bool tell_of_interruption(const Study& study, const Request& request, const Stud
   return true;
 }
 
+/// A study whose trials follow from those before, so that it runs whole or not at all.
+///
+/// @param ranks  null where this process is alone
+ExitCode run_by_levels(const Study& study, const Request& request, InstructionSet simd, const Ranks* ranks) {
+  constexpr const char* why = "subset_simulation draws its trials from those before";
+  if (request.resume) throw BadUsage(fmt::format("--resume: {}, and keeps none until the last; run it anew", why));
+  if (request.shard) throw BadUsage(fmt::format("--shard: {}, so that no part can run alone; run it whole", why));
+  if (ranks != nullptr) throw BadUsage(fmt::format("mpirun, srun: {}; run it in one process", why));
+  if (request.report.baseline) throw BadUsage(fmt::format("--baseline: {}; use a gate on success_rate", why));
+  check_outputs(request);
+  if (request.result) require_writable(*request.result);
+  const Interruption interruption;
+  SubsetRun run;
+  {
+    ProgressDisplay display(request.no_progress ? ProgressStyle::none : progress_style(), interruption.token());
+    RunOptions options;
+    options.threads = request.threads;
+    options.simd = simd;
+    options.stop = interruption.token();
+    options.on_progress = [&display](const Progress& progress) { display.show(progress); };
+    run = run_subset_simulation(study, options);
+  }
+  if (run.result.trials.index.empty()) {
+    tell("interrupted; a subset simulation keeps no trials until the last");
+    return ExitCode::interrupted;
+  }
+  const bool kept = !request.result || attempt([&] { write_result(*request.result, run.study, run.result); });
+  const Summary summary = summarise(run.study, run.result);
+  const bool written = request.report.write(summary, kept ? request.result.value_or("") : "");
+  const bool interrupted = tell_of_interruption(run.study, request, run.result);
+  if (!kept || !written) return ExitCode::run_failed;
+  return interrupted ? ExitCode::interrupted : exit_code_of(summary);
+}
+
 /// @param ranks  null where this process is alone
 ExitCode run(const Request& request, Ranks* ranks) {
   const InstructionSet simd = request.simd ? choose_simd(*request.simd) : best_instruction_set();
@@ -168,6 +206,7 @@ ExitCode run(const Request& request, Ranks* ranks) {
     return run_of_approximation(*approximation, request);
   }
   const Study& study = std::get<Study>(spec);
+  if (study.sampling.method == SamplingMethod::subset_simulation) return run_by_levels(study, request, simd, ranks);
   const std::optional<StudyShare> share = share_of(request);
   const std::optional<Baseline> baseline = read_baseline(request, study);
   check_outputs(request);

@@ -78,6 +78,11 @@ ExitCode show(const Request& request) {
   }
   check_outputs(request.reports.named(), {{"the result file", request.file}});
   const StoredStudy stored = read_result(request.file);
+  if (request.sensitivity && seeks_failures(stored.study.sampling.method)) {
+    throw BadUsage(
+        "--sensitivity: the trials are drawn where failures are (indices are those of the study's own distributions); "
+        "use monte_carlo");
+  }
   if (request.sensitivity) {
     show_sensitivity(request, stored, outputs);
     return ExitCode::done;

@@ -31,7 +31,8 @@ std::string trajectory_csv(const Trajectory& trajectory) {
 
 std::string trials_csv(const StoredStudy& stored) {
   const Plan plan(stored.study);
-  std::string text = "index,cell";
+  const bool is_weighted = stored.study.sampling.method == SamplingMethod::importance;
+  std::string text = is_weighted ? "index,cell,weight" : "index,cell";
   for (const std::string& name : plan.varying()) text += ',' + name;
   text += ",status,settling_time,end_time,cycles,swings,alignments,passive_error,active_error,q1,q2,q1_dot,q2_dot";
   for (const Metric& metric : further_metrics()) fmt::format_to(std::back_inserter(text), ",{}", metric.name);
@@ -41,6 +42,7 @@ std::string trials_csv(const StoredStudy& stored) {
     const std::uint64_t index = stored.result.trials.index[row];
     const TrialOutcome& end = stored.result.trials.outcomes[row];
     fmt::format_to(out, "{},{}", index, plan.cell_of(index));
+    if (is_weighted) fmt::format_to(out, ",{}", plan.weight(index));
     for (const std::vector<double>& values : stored.parameters) fmt::format_to(out, ",{}", values[row]);
     fmt::format_to(out, ",{},", name_of(end.status));
     if (end.status == Status::converged) fmt::format_to(out, "{}", end.settling_time());

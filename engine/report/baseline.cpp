@@ -122,6 +122,11 @@ Comparison hold(const ProportionCount& before, const TrialStatistics& statistics
 }  // namespace
 
 void require_same_population(const Study& study, const Baseline& baseline) {
+  if (seeks_failures(study.sampling.method)) {
+    throw BadUsage(
+        "--baseline: the study's trials are drawn where failures are (a baseline compares counts of plain trials); use "
+        "monte_carlo, or a gate on success_rate");
+  }
   require_same_cells(Plan(study), baseline);
   if (population_sha256(study) == baseline.population_sha256) return;
   throw BadUsage(fmt::format(

@@ -62,6 +62,7 @@ std::optional<ProportionInterval> Independence::rate(Status outcome, const Trial
                                                      bool in_cell) const {
   const std::uint64_t n = statistics.completed;
   if (n == 0) return std::nullopt;
+  if (seeks_failures(study_.sampling.method)) return statistics.success_rate;  // no other rate is asked for
   const auto& [method, level] = study_.intervals;
   if (unit(in_cell) == IntervalUnit::draw) {
     const auto sums = by_draw([&](const TrialOutcome& o) { return o.status == outcome ? 1.0 : 0.0; });

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "report/rare_failures_text.hpp"
 #include "report/readable.hpp"
 #include "report/verdict.hpp"
 #include "trial/metric.hpp"
@@ -123,8 +124,15 @@ std::string summary_markdown(const Summary& summary) {
                         readable_count(summary.completed), readable_count(summary.requested));
   }
   text += gates_table(summary);
-  text += fmt::format("Success rate {}, {} trials\n\n", rate_text(summary.all), readable_count(summary.all.completed));
-  text += outcomes_table(summary.all) + metrics_table(summary.all) + cells_table(summary);
+  if (summary.rare_failures) {
+    text += fmt::format("Failure rate {}, {} trials\n\n", failure_rate_text(*summary.rare_failures),
+                        readable_count(summary.all.completed));
+  } else {
+    text +=
+        fmt::format("Success rate {}, {} trials\n\n", rate_text(summary.all), readable_count(summary.all.completed));
+    text += outcomes_table(summary.all);
+  }
+  text += metrics_table(summary.all) + cells_table(summary);
   text += fmt::format("Seed {}, id {}, engine {}", summary.seed, code(summary.id), summary.engine_version);
   if (summary.wall_s > 0.0) {
     text += fmt::format(", {} on {} thread{}", readable_duration(summary.wall_s), summary.threads,

@@ -53,6 +53,11 @@ class Reasons {
  private:
   // A seed decides nothing where nothing is drawn, but then the studies have one draw or list their trials.
   void sampling() {
+    if (seeks_failures(a_.sampling.method) || seeks_failures(b_.sampling.method)) {
+      reasons_.push_back(
+          "/sampling/method: trials drawn where failures are (pairs count one each only where they are drawn as they "
+          "come); run both with monte_carlo");
+    }
     for (const SpecDifference& difference : differences_) {
       if (difference.pointer.starts_with("/sampling/")) {
         reasons_.push_back(sides(difference) + " (the same draws need the same sampling); run both with one of them");

@@ -53,6 +53,13 @@ std::vector<Summary::Cell> summarise_cells(const Plan& plan, const Independence&
   return cells;
 }
 
+/// Of trials drawn where failures are, nothing speaks of the study's distributions but the weighted rate.
+void keep_what_is_weighted(const RareFailures& rare, TrialStatistics& statistics) {
+  statistics.success_rate = success_rate(rare);
+  statistics.effective_trials = equivalent_trials(rare);
+  statistics.metrics.fill(std::nullopt);
+}
+
 std::optional<AuditStatistics> summarise_audit(const Audit& audit, const TrialTable& trials) {
   if (audit.trials.empty()) return std::nullopt;
   AuditStatistics result;
@@ -106,6 +113,8 @@ Summary summarise(const Study& study, const StudyResult& result) {
   const Independence independence(study, plan, result.trials);
   summary.all = all.statistics(independence, false);
   summary.cells = summarise_cells(plan, independence, result.trials);
+  summary.rare_failures = rare_failures(study, plan, result.trials);
+  if (summary.rare_failures) keep_what_is_weighted(*summary.rare_failures, summary.all);
   summary.sensitivity = sobol_sensitivity(study, plan, result.trials);
   if (const auto report = watched(study, result.trials)) summary.stop = {*study.stop, *report};
   summary.gates = judge_gates(study, plan, result.trials, summary);

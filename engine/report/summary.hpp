@@ -9,6 +9,7 @@
 
 #include "core/instruction_set.hpp"
 #include "core/status.hpp"
+#include "report/rare_failures.hpp"
 #include "report/sensitivity.hpp"
 #include "report/verdict.hpp"
 #include "statistics/proportion.hpp"
@@ -26,7 +27,8 @@ enum class IntervalUnit : std::uint8_t { trial, draw, none };
 inline constexpr std::array<std::string_view, 3> interval_unit_names{"trial", "draw", "none"};
 
 /// What a set of trials says; statistics without data are empty. Of a study of Sobol' indices only the trials A and B
-/// of each row count, which are independent: the others repeat their values, and intervals would be too narrow.
+/// of each row count, which are independent: the others repeat their values, and intervals would be too narrow. Of a
+/// study that seeks failures there are no metrics: its trials are not those of its distributions.
 struct TrialStatistics {
   std::uint64_t completed{0};  ///< trials that the statistics are of
   std::optional<ProportionInterval> success_rate;
@@ -90,6 +92,7 @@ struct Summary {
   };
   std::optional<Stop> stop;                     ///< where the study has a rule
   std::optional<SobolSensitivity> sensitivity;  ///< of sobol_indices sampling
+  std::optional<RareFailures> rare_failures;    ///< of sampling that seeks failures
   std::vector<GateVerdict> gates;               ///< in the spec's order, the baseline's last
   std::optional<BaselineComparison> baseline;   ///< where the run was held against one
   std::optional<AuditStatistics> audit;         ///< nothing where no trial was audited

@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "report/rare_failures_json.hpp"
 #include "report/sensitivity_json.hpp"
 #include "report/summary.hpp"
 #include "trial/metric.hpp"
@@ -13,12 +14,13 @@ Json number_or_null(std::optional<double> value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-Json success_rate_json(const TrialStatistics& statistics, const IntervalChoice& intervals) {
+/// @param method  the interval's
+Json success_rate_json(const TrialStatistics& statistics, double level, std::string_view method) {
   const std::optional<ProportionInterval>& rate = statistics.success_rate;
   Json json = {{"estimate", nullptr}, {"ci_low", nullptr}, {"ci_high", nullptr}};
   if (rate) json = {{"estimate", rate->estimate}, {"ci_low", rate->low}, {"ci_high", rate->high}};
-  json["level"] = intervals.level;
-  json["method"] = proportion_method_names[static_cast<std::size_t>(intervals.method)];
+  json["level"] = level;
+  json["method"] = method;
   json["unit"] = interval_unit_names[static_cast<std::size_t>(statistics.unit)];
   json["effective_trials"] =
       rate && statistics.unit != IntervalUnit::none ? Json(statistics.effective_trials) : Json(nullptr);
@@ -40,10 +42,13 @@ Json sample_json(const std::optional<SampleStatistics>& sample) {
           {"count", sample ? sample->count : 0}};
 }
 
-void append_statistics(Json& json, std::uint64_t requested, std::uint64_t completed, const IntervalChoice& intervals,
+void append_statistics(Json& json, std::uint64_t requested, std::uint64_t completed, const Summary& summary,
                        const TrialStatistics& statistics) {
+  const auto& [usual, level] = summary.intervals;
+  const std::string_view method = summary.rare_failures ? interval_method(*summary.rare_failures)
+                                                        : proportion_method_names[static_cast<std::size_t>(usual)];
   json["trials"] = {{"requested", requested}, {"completed", completed}};
-  json["success_rate"] = success_rate_json(statistics, intervals);
+  json["success_rate"] = success_rate_json(statistics, level, method);
   json["outcomes"] = outcomes_json(statistics);
   for (std::size_t i = 0; i < metric_count; ++i) {
     json[std::string(metrics()[i].name)] = sample_json(statistics.metrics[i]);
@@ -62,7 +67,7 @@ Json cells_json(const Summary& summary) {
   for (const Summary::Cell& cell : summary.cells) {
     Json json;
     json["sweep"] = sweep_json(cell.sweep);
-    append_statistics(json, summary.requested / summary.cells.size(), cell.statistics.completed, summary.intervals,
+    append_statistics(json, summary.requested / summary.cells.size(), cell.statistics.completed, summary,
                       cell.statistics);
     cells.push_back(std::move(json));
   }
@@ -171,10 +176,11 @@ std::string summary_json(const Summary& summary) {
                    {"engine_version", summary.engine_version},
                    {"seed", summary.seed}};
   json["complete"] = summary.complete;
-  append_statistics(json, summary.requested, summary.completed, summary.intervals, summary.all);
+  append_statistics(json, summary.requested, summary.completed, summary, summary.all);
   json["stop"] = stop_json(summary);
   json["cells"] = cells_json(summary);
   json["sensitivity"] = sobol_json(summary.sensitivity);
+  json["rare_failures"] = rare_failures_json(summary.rare_failures);
   json["gates"] = gates_json(summary.gates);
   json["baseline"] = baseline_json(summary.baseline);
   json["audit"] = audit_json(summary.audit);

@@ -7,6 +7,7 @@
 
 #include "report/gates_text.hpp"
 #include "report/metric_table.hpp"
+#include "report/rare_failures_text.hpp"
 #include "report/readable.hpp"
 #include "report/summary.hpp"
 #include "report/text_table.hpp"
@@ -283,6 +284,8 @@ std::string summary_text(const Summary& summary, bool colour) {
   std::string text = heading(summary, colour) + '\n';
   if (summary.all.completed == 1 && summary.cells.empty()) {
     text += single_text(summary.all, colour);
+  } else if (summary.rare_failures) {
+    text += rare_failures_text(*summary.rare_failures, colour);
   } else {
     text += success_text(summary.all, summary.intervals.method, colour);
     if (summary.sensitivity) {

@@ -21,6 +21,13 @@ class Design {
   virtual void place(std::uint64_t draw, std::span<double> point) const {
     for (std::size_t variable = 0; variable < point.size(); ++variable) point[variable] = coordinate(draw, variable);
   }
+
+  /// What a draw counts for in a mean over the draws: 1, but where they are not from the distribution that the mean is
+  /// over.
+  [[nodiscard]] virtual double weight(std::uint64_t /*draw*/) const { return 1.0; }
+
+  /// Whether the draw was made as if all weights were 1.
+  [[nodiscard]] virtual bool is_nominal(std::uint64_t /*draw*/) const { return true; }
 };
 
 }  // namespace steerstat

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include "core/errors.hpp"
 #include "store/attribute.hpp"
@@ -17,6 +19,7 @@
 #include "store/trial_columns.hpp"
 #include "store/whole_file.hpp"
 #include "study/spec_json.hpp"
+#include "study/subset_simulation.hpp"
 
 namespace steerstat {
 namespace {
@@ -58,6 +61,32 @@ Study read_study(hid_t file) {
     throw Problem("its spec and its spec_sha256 do not belong together");
   }
   return study;
+}
+
+/// Lists the trials that a subset simulation came to: its spec alone has only those of the first level.
+void list_trials(hid_t file, Study& study) {
+  if (study.sampling.method != SamplingMethod::subset_simulation) return;
+  const std::vector<std::string> names = Plan(study).varying();
+  const hdf5::Handle trials = hdf5::open_group(file, "trials");
+  const hdf5::Handle parameters = hdf5::open_group(file, "parameters");
+  const std::size_t rows = hdf5::Column(trials.id(), "index", hdf5::type_of(std::uint64_t{}), "1").rows();
+  std::vector<double> values(rows * names.size());
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto column = hdf5::read_column<double>(parameters.id(), names[i], layout::units_of(names[i]), rows);
+    for (std::size_t row = 0; row < rows; ++row) values[row * names.size() + i] = column[row];
+  }
+  study.sampling.explicit_names = names;
+  study.sampling.explicit_values = std::move(values);
+}
+
+/// @throws Problem where the trials are not those that a subset simulation of the study comes to
+void check_levels(const Study& study, const TrialTable& trials) {
+  if (study.sampling.method != SamplingMethod::subset_simulation) return;
+  try {
+    subset_levels(study, trials);
+  } catch (const std::invalid_argument&) {
+    throw Problem("its trials are not those of a finished subset simulation");
+  }
 }
 
 /// @throws Problem where a trial is said to be in another cell than its own
@@ -145,10 +174,12 @@ StoredStudy read_bytes(std::span<const std::byte> bytes) {
   require_our_format(file.id());
   StoredStudy stored;
   stored.study = read_study(file.id());
+  list_trials(file.id(), stored.study);
   stored.created = hdf5::read_text_attribute(file.id(), "created");
   stored.engine_version = hdf5::read_text_attribute(file.id(), "engine_version");
   const Plan plan(stored.study);
   stored.result.trials = read_trials(file.id(), plan);
+  check_levels(stored.study, stored.result.trials);
   stored.has_metrics = hdf5::has_every_outcome(hdf5::open_group(file.id(), "trials").id());
   stored.parameters = read_parameters(file.id(), plan, stored.result.trials.index.size());
   stored.result.audit = read_audit(file.id(), stored.result.trials);

@@ -14,6 +14,7 @@
 #include "store/trial_columns.hpp"
 #include "store/whole_file.hpp"
 #include "study/spec_json.hpp"
+#include "study/subset_simulation.hpp"
 
 namespace steerstat {
 namespace {
@@ -35,12 +36,21 @@ void write_description(hid_t file, const Study& study, const StudyResult& result
   }
 }
 
-void write_trials(hid_t file, const Plan& plan, const TrialTable& trials) {
+void write_trials(hid_t file, const Study& study, const Plan& plan, const TrialTable& trials) {
   const hdf5::Handle group = hdf5::create_group(file, "trials");
   const std::size_t rows = trials.index.size();
   hdf5::write_column<std::uint64_t>(group.id(), "index", trials.index, "1");
   hdf5::write_each<std::uint64_t>(group.id(), "cell", rows, "1",
                                   [&](std::size_t row) { return plan.cell_of(trials.index[row]); });
+  if (study.sampling.method == SamplingMethod::importance) {
+    hdf5::write_each<double>(group.id(), "weight", rows, "1",
+                             [&](std::size_t row) { return plan.weight(trials.index[row]); });
+  }
+  if (study.sampling.method == SamplingMethod::subset_simulation && rows > 0) {
+    const SubsetLevels levels = subset_levels(study, trials);
+    hdf5::write_each<std::uint32_t>(group.id(), "level", rows, "1",
+                                    [&](std::size_t row) { return static_cast<std::uint32_t>(levels.level_of(row)); });
+  }
   hdf5::write_outcomes(group.id(), trials.outcomes);
 }
 
@@ -101,7 +111,7 @@ hdf5::Bytes result_bytes(const Study& study, const StudyResult& result) {
   const hdf5::Session session;
   hdf5::MemoryFile file;
   write_description(file.id(), study, result);
-  write_trials(file.id(), plan, result.trials);
+  write_trials(file.id(), study, plan, result.trials);
   write_parameters(file.id(), plan, columns);
   write_audit(file.id(), result.audit);
   {

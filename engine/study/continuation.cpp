@@ -6,9 +6,10 @@ namespace steerstat {
 namespace {
 
 /// Whether the first draws stay as they are when there are more of them. Those of a hypercube do not: its strata depend
-/// on their number; and a list of explicit trials is its own length.
+/// on their number. Nor do a subset simulation's, whose chains begin where a level's states say; and a list of explicit
+/// trials is its own length.
 bool keeps_its_draws(SamplingMethod method) {
-  return draws(method) && method != SamplingMethod::latin_hypercube;
+  return draws(method) && method != SamplingMethod::latin_hypercube && method != SamplingMethod::subset_simulation;
 }
 
 Study with_draws(Study study, std::uint64_t draws) {

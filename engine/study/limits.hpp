@@ -18,6 +18,13 @@ inline constexpr std::size_t most_explicit_trials = 100'000;
 /// At most this many correlations of two inputs.
 inline constexpr std::size_t most_correlations = 1'000;
 
+/// The method importance draws from at most this many components beside the nominal one.
+inline constexpr std::size_t most_proposal_components = 32;
+
+/// A subset simulation has at most this many levels, of at most this many states each.
+inline constexpr std::uint64_t most_levels = 30;
+inline constexpr std::uint64_t most_states = 10'000'000;
+
 /// A discrete distribution has at most this many values.
 inline constexpr std::size_t most_discrete_values = 10'000;
 

@@ -10,6 +10,7 @@
 
 #include "robot/plant.hpp"
 #include "sampling/correlated_design.hpp"
+#include "sampling/importance.hpp"
 #include "sampling/latin_hypercube.hpp"
 #include "sampling/monte_carlo.hpp"
 #include "sampling/pick_freeze_design.hpp"
@@ -55,6 +56,14 @@ Factorial cells_of(const Study& study) {
   return Factorial(levels);
 }
 
+std::uint64_t draws_of(const Sampling& sampling) {
+  if (sampling.method == SamplingMethod::grid) return 1;
+  if (sampling.method == SamplingMethod::subset_simulation && !sampling.explicit_names.empty()) {
+    return sampling.explicit_values.size() / sampling.explicit_names.size();
+  }
+  return sampling.trials;
+}
+
 void require_known_inputs(const Study& study) {
   const auto require_known = [](const std::string& name) {
     if (find_input(name) == nullptr) throw std::invalid_argument("Plan: there is no input called " + name);
@@ -86,18 +95,35 @@ std::shared_ptr<const Design> pick_freeze_design(const Sampling& sampling, const
   return std::make_shared<PickFreezeDesign>(independent_design(base, base_names), names.size());
 }
 
+std::size_t drawn_position(const std::vector<std::string>& names, const std::string& name, const char* is_what) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) throw std::invalid_argument("Plan: " + name + ' ' + is_what + ", but not drawn");
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+std::shared_ptr<const Design> importance_design(const Sampling& sampling, const std::vector<std::string>& names) {
+  double total = 0.0;
+  for (const Proposal::Component& component : sampling.proposal.components) total += component.share;
+  std::vector<ProposalDensity> components;
+  for (const Proposal::Component& component : sampling.proposal.components) {
+    ProposalDensity density{(1.0 - sampling.proposal.nominal) * (component.share / total), {}};
+    for (const Proposal::Tilt& tilt : component.tilts) {
+      density.tilts.push_back({drawn_position(names, tilt.input, "has a proposal"), tilt.shift, tilt.scale});
+    }
+    components.push_back(std::move(density));
+  }
+  return std::make_shared<Importance>(sampling.seed, names, std::move(components));
+}
+
 // @param names  of the inputs that are drawn
 std::shared_ptr<const Design> design_of(const Sampling& sampling, const std::vector<std::string>& names) {
   if (sampling.method == SamplingMethod::sobol_indices) return pick_freeze_design(sampling, names);
+  if (sampling.method == SamplingMethod::importance) return importance_design(sampling, names);
   auto independent = independent_design(sampling, names);
   if (sampling.correlations.empty()) return independent;
   std::vector<PairCorrelation> pairs;
   for (const Correlation& correlation : sampling.correlations) {
-    const auto position = [&](const std::string& name) {
-      const auto found = std::find(names.begin(), names.end(), name);
-      if (found == names.end()) throw std::invalid_argument("Plan: " + name + " is correlated, but not drawn");
-      return static_cast<std::size_t>(found - names.begin());
-    };
+    const auto position = [&](const std::string& name) { return drawn_position(names, name, "is correlated"); };
     pairs.push_back({position(correlation.first), position(correlation.second), correlation.coefficient});
   }
   const auto factor = factorise_correlation(names.size(), pairs);
@@ -109,7 +135,7 @@ std::shared_ptr<const Design> design_of(const Sampling& sampling, const std::vec
 
 Plan::Plan(const Study& study)
     : base_(fixed_parameters(study)),
-      draws_(study.sampling.method == SamplingMethod::grid ? 1 : study.sampling.trials),
+      draws_(draws_of(study.sampling)),
       cells_(cells_of(study)),
       seed_(study.sampling.seed),
       listed_(study.sampling.explicit_values),
@@ -117,11 +143,14 @@ Plan::Plan(const Study& study)
   require_known_inputs(study);
   std::vector<std::string> drawn_names;
   std::size_t factors = 0;
+  // Its trials are those that it came to; before, they are the first level's, which are plain draws.
+  const bool has_run = study.sampling.method == SamplingMethod::subset_simulation && listed_columns_ > 0;
   for (const InputDefinition& definition : input_definitions()) {
     const std::string name(definition.name);
     const Input* input = find_input_of(study, name);
     std::optional<Source> source;
-    if (input == nullptr) {
+    const auto column = column_of(study.sampling, name);
+    if (input == nullptr || (column && has_run)) {
       // stays as fixed_parameters() has it
     } else if (const auto* sweep = std::get_if<Sweep>(&input->value)) {
       source = Swept{sweep->values, factors++};
@@ -131,7 +160,7 @@ Plan::Plan(const Study& study)
     } else {
       definition.field(base_) = std::get<double>(input->value);
     }
-    if (const auto column = column_of(study.sampling, name)) {
+    if (column) {
       if (source) throw std::invalid_argument("Plan: " + name + " varies and is listed too");
       source = Listed{*column};
     }
@@ -158,6 +187,11 @@ double Plan::value_of(const Source& source, std::span<const double> point, std::
   }
   if (const auto* swept = std::get_if<Swept>(&source)) return swept->values[cells_.level(cell, swept->factor)];
   return listed_[draw * listed_columns_ + std::get<Listed>(source).column];
+}
+
+void Plan::place(std::span<const double> point, std::span<double> values) const {
+  assert(point.size() == coordinates_ && values.size() == sources_.size());
+  for (std::size_t i = 0; i < sources_.size(); ++i) values[i] = value_of(sources_[i], point, 0, 0);
 }
 
 void Plan::draw(std::uint64_t index, std::span<double> values) const {

@@ -24,8 +24,8 @@ class Plan {
  public:
   /// @throws std::invalid_argument for a study that decode_study() would not return: an input that does not exist or
   ///         has two sources of values, a table of explicit trials with the wrong number of values, correlations of
-  ///         inputs that are not drawn or that are not positive definite, or Sobol' indices of no distribution, beside
-  ///         sweeps or with correlations
+  ///         inputs that are not drawn or that are not positive definite, a proposal of such inputs, or Sobol' indices
+  ///         of no distribution, beside sweeps or with correlations
   explicit Plan(const Study& study);
 
   [[nodiscard]] std::uint64_t trials() const { return draws_ * cells(); }
@@ -37,6 +37,12 @@ class Plan {
   /// first two of each row of a pick-freeze design, A and B.
   [[nodiscard]] bool is_independent(std::uint64_t index) const { return index / cells() % variants_ < 2; }
 
+  /// What trial `index` counts for (Design::weight): 1, but with the method importance.
+  [[nodiscard]] double weight(std::uint64_t index) const { return design_->weight(index / cells()); }
+
+  /// Whether trial `index` was drawn from the study's own distributions: all, but with the method importance.
+  [[nodiscard]] bool is_nominal(std::uint64_t index) const { return design_->is_nominal(index / cells()); }
+
   [[nodiscard]] std::uint64_t cells() const { return cells_.cells(); }
   [[nodiscard]] std::uint64_t cell_of(std::uint64_t index) const { return index % cells(); }
 
@@ -45,6 +51,10 @@ class Plan {
 
   /// Writes the values of the varying inputs in trial `index`. @param values (varying) in the order of varying().
   void draw(std::uint64_t index, std::span<double> values) const;
+
+  /// Writes the values that the varying inputs take at a point of the unit cube, without sweeps or listed trials.
+  /// @param point (varying) @param values (varying)
+  void place(std::span<const double> point, std::span<double> values) const;
 
   /// The parameters of trial `index` where its varying inputs have these values. @param values (varying).
   [[nodiscard]] TrialParameters parameters_with(std::uint64_t index, std::span<const double> values) const;

@@ -136,6 +136,49 @@ class Rules {
     }
   }
 
+  // Of such trials no statistic is one of the study's distributions but the rate of failure, which has an interval of
+  // its own.
+  void check_seeking_of_failures() {
+    const SamplingMethod method = study_.sampling.method;
+    if (is_mistaken("sampling") || !seeks_failures(method)) return;
+    const std::string_view name = sampling_method_names[static_cast<std::size_t>(method)];
+    for (const Input& input : study_.inputs) {
+      if (!std::holds_alternative<Sweep>(input.value)) continue;
+      errors_.push_back({pointer_to(input.name),
+                         fmt::format("a sweep beside {} (it looks for the failures of one cell); use a study for each "
+                                     "value",
+                                     name)});
+    }
+    if (drawn() == 0 && mistaken_.empty()) {
+      errors_.push_back({"/sampling/method",
+                         fmt::format("{} without a distribution (it draws failures more often than they are); add "
+                                     "one, such as {{\"uniform\": [0.8, 1.2]}}, or use monte_carlo",
+                                     name)});
+    }
+    for (const std::string_view key : {"q1", "q2", "q1_dot", "q2_dot"}) {
+      const std::string noise = fmt::format("sensor.noise.{}", key);
+      if (method != SamplingMethod::subset_simulation || is_mistaken(noise) || values_of(noise).high == 0.0) continue;
+      errors_.push_back(
+          {pointer_to(noise),
+           fmt::format("noise beside {} (how a trial ends must follow from its inputs); remove it, or use "
+                       "importance or monte_carlo",
+                       name)});
+    }
+    if (study_.intervals.method != ProportionMethod::wilson && !study_.stop) {
+      errors_.push_back(
+          {"/intervals/method",
+           fmt::format("{} has an interval of its own (no method but the level can be chosen); remove it", name)});
+    }
+    for (std::size_t i = 0; i < study_.gates.size(); ++i) {
+      if (study_.gates[i].metric.empty() || study_.gates[i].metric == "success_rate") continue;
+      errors_.push_back({fmt::format("/gates/{}/metric", i),
+                         fmt::format("{} of the method {} (its trials are drawn where failures are, so that only "
+                                     "success_rate says anything of the distributions); gate on success_rate, or use "
+                                     "monte_carlo",
+                                     study_.gates[i].metric, name)});
+    }
+  }
+
   void check_size() {
     check_rows();
     double cells = 1.0;
@@ -233,6 +276,7 @@ void check_rules(const Study& study, const std::vector<std::string>& mistaken, s
   rules.check_policy();
   rules.check_stroke();
   rules.check_sampling();
+  rules.check_seeking_of_failures();
   rules.check_size();
 }
 

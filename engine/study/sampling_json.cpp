@@ -10,6 +10,7 @@
 #include "study/correlation_json.hpp"
 #include "study/explicit_csv.hpp"
 #include "study/limits.hpp"
+#include "study/proposal_json.hpp"
 
 namespace steerstat {
 namespace {
@@ -102,6 +103,16 @@ void decode_file(const Reader& reader, const std::filesystem::path& directory, S
   if (problems.empty()) take_table(std::move(table), sampling);
 }
 
+constexpr std::uint64_t default_states = 1000;  // of a level
+
+std::optional<std::uint64_t> decode_states(const Reader& reader) {
+  const auto states = reader.integer(100, most_states);
+  if (!states || *states % 10 == 0) return states;
+  reader.fail(fmt::format("{} trials a level (a multiple of 10, a tenth of which begin the next level); take {}",
+                          *states, (*states + 9) / 10 * 10));
+  return std::nullopt;
+}
+
 void decode_explicit(const Reader& reader, const std::filesystem::path& directory, Sampling& sampling) {
   const auto rows = reader.find("trials");
   const auto file = reader.find("file");
@@ -122,7 +133,8 @@ Sampling decode_sampling(const Reader& reader, const std::filesystem::path& dire
                          std::span<const std::string> mistaken) {
   Sampling sampling;
   if (!reader.require_object("an object {\"method\", \"trials\", \"seed\"}")) return sampling;
-  static constexpr std::array<std::string_view, 6> known{"method", "trials", "seed", "file", "correlation", "base"};
+  static constexpr std::array<std::string_view, 8> known{"method",      "trials", "seed",     "file",
+                                                         "correlation", "base",   "proposal", "levels"};
   reader.refuse_unknown_keys(known);
   if (const auto seed = reader.find("seed")) {
     sampling.seed = seed->integer(0, std::numeric_limits<std::uint64_t>::max()).value_or(sampling.seed);
@@ -141,6 +153,11 @@ Sampling decode_sampling(const Reader& reader, const std::filesystem::path& dire
       correlation->fail(
           "the method sobol_indices takes variance apart by inputs (they must be independent); remove it, or use "
           "monte_carlo and show --sensitivity, whose first-order indices need no independence");
+    } else if (seeks_failures(sampling.method)) {
+      correlation->fail(
+          fmt::format("the method {} draws its inputs one by one (they must be independent); remove it, "
+                      "or use monte_carlo",
+                      sampling_method_names[static_cast<std::size_t>(sampling.method)]));
     } else if (draws(sampling.method)) {
       sampling.correlations = decode_correlations(*correlation, inputs, mistaken);
     } else {
@@ -150,6 +167,19 @@ Sampling decode_sampling(const Reader& reader, const std::filesystem::path& dire
                       sampling_method_names[static_cast<std::size_t>(sampling.method)]));
     }
   }
+  const auto proposal = reader.find("proposal");
+  if (method == SamplingMethod::importance) {
+    sampling.proposal = proposal ? decode_proposal(*proposal, inputs, mistaken) : default_proposal(inputs);
+  } else if (proposal && method) {
+    proposal->fail("only the method importance has a proposal; remove it, or set the method");
+  }
+  if (const auto levels = reader.find("levels")) {
+    if (method && method != SamplingMethod::subset_simulation) {
+      levels->fail("only the method subset_simulation has levels; remove it, or set the method");
+    } else {
+      sampling.levels = levels->integer(1, most_levels).value_or(sampling.levels);
+    }
+  }
   if (method == SamplingMethod::explicit_trials) {
     decode_explicit(reader, directory, sampling);
     return sampling;
@@ -157,6 +187,10 @@ Sampling decode_sampling(const Reader& reader, const std::filesystem::path& dire
   if (const auto file = reader.find("file"))
     file->fail("only the method explicit reads a file; remove it, or set the method");
   const auto trials = reader.find("trials");
+  if (method == SamplingMethod::subset_simulation) {
+    sampling.trials = trials ? decode_states(*trials).value_or(default_states) : default_states;
+    return sampling;
+  }
   if (!trials) return sampling;
   if (method == SamplingMethod::grid) {
     trials->fail("a grid has no trials key (each combination of the sweeps runs once); remove it");
@@ -176,6 +210,8 @@ nlohmann::json encode_sampling(const Sampling& sampling) {
   if (sampling.method == SamplingMethod::sobol_indices) {
     object["base"] = base_names[static_cast<std::size_t>(sampling.base)];
   }
+  if (sampling.method == SamplingMethod::subset_simulation) object["levels"] = sampling.levels;
+  if (sampling.method == SamplingMethod::importance) object["proposal"] = encode_proposal(sampling.proposal);
   if (!sampling.correlations.empty()) object["correlation"] = encode_correlations(sampling.correlations);
   if (sampling.method != SamplingMethod::explicit_trials) return object;
   auto rows = nlohmann::json::array();

@@ -35,15 +35,30 @@ struct Input {
   friend bool operator==(const Input&, const Input&) = default;
 };
 
-enum class SamplingMethod : std::uint8_t { monte_carlo, latin_hypercube, sobol, grid, explicit_trials, sobol_indices };
+enum class SamplingMethod : std::uint8_t {
+  monte_carlo,
+  latin_hypercube,
+  sobol,
+  grid,
+  explicit_trials,
+  sobol_indices,
+  importance,
+  subset_simulation
+};
 
 /// As a spec spells them.
-inline constexpr std::array<std::string_view, 6> sampling_method_names{
-    "monte_carlo", "latin_hypercube", "sobol", "grid", "explicit", "sobol_indices"};
+inline constexpr std::array<std::string_view, 8> sampling_method_names{
+    "monte_carlo", "latin_hypercube", "sobol", "grid", "explicit", "sobol_indices", "importance", "subset_simulation"};
 
 /// Whether the method draws values from distributions.
 constexpr bool draws(SamplingMethod method) {
   return method != SamplingMethod::grid && method != SamplingMethod::explicit_trials;
+}
+
+/// Whether the method draws where failures are rather than where trials are: what its trials count for is not 1, and
+/// of the summary only the rate of failure says anything of the study's distributions.
+constexpr bool seeks_failures(SamplingMethod method) {
+  return method == SamplingMethod::importance || method == SamplingMethod::subset_simulation;
 }
 
 /// What the rows of the method sobol_indices are drawn by.
@@ -57,15 +72,38 @@ struct Correlation {
   friend bool operator==(const Correlation&, const Correlation&) = default;
 };
 
+/// What the method importance draws from: the distributions themselves, with the share `nominal`, and components that
+/// move the normal variables behind them (sampling/importance.hpp).
+struct Proposal {
+  struct Tilt {
+    std::string input;  ///< with a distribution
+    double shift{0.0};  ///< [standard deviations]
+    double scale{1.0};  ///< > 0
+    friend bool operator==(const Tilt&, const Tilt&) = default;
+  };
+  struct Component {
+    double share{1.0};        ///< > 0, of what the nominal share leaves: relative to the other components'
+    std::vector<Tilt> tilts;  ///< in the order of input_names()
+    friend bool operator==(const Component&, const Component&) = default;
+  };
+  double nominal{0.5};  ///< in [0.1, 1)
+  std::vector<Component> components;
+  friend bool operator==(const Proposal&, const Proposal&) = default;
+};
+
 /// How the inputs' values are drawn.
 struct Sampling {
   SamplingMethod method{SamplingMethod::monte_carlo};
-  std::uint64_t trials{1};  ///< draws a cell; 1 for a grid; rows for sobol_indices
+  std::uint64_t trials{1};  ///< draws a cell; 1 for a grid; rows for sobol_indices; a level's states for
+                            ///< subset_simulation, a multiple of 10
   std::uint64_t seed{1};
   std::vector<Correlation> correlations;  ///< in the order of input_names(); positive definite
   SobolIndicesBase base{SobolIndicesBase::monte_carlo};
-  std::vector<std::string> explicit_names;  ///< explicit: the inputs that the rows set
-  std::vector<double> explicit_values;      ///< explicit: (trials x explicit_names), row by row
+  std::uint64_t levels{10};  ///< subset_simulation: at most; the first one included
+  Proposal proposal;         ///< importance: with a component at least
+  /// Of the method explicit, the inputs that the rows set; of a subset simulation that has run, those that are drawn.
+  std::vector<std::string> explicit_names;
+  std::vector<double> explicit_values;  ///< (trials that there are x explicit_names), row by row
 
   friend bool operator==(const Sampling&, const Sampling&) = default;
 };

@@ -36,6 +36,12 @@ Tell in_turn(Tell tell) {
 std::vector<SpecError> excesses(const Study& study, const ServiceLimits& limits, std::uint64_t memory) {
   std::vector<SpecError> errors;
   const Plan plan(study);
+  if (seeks_failures(study.sampling.method)) {
+    errors.push_back(
+        {"/sampling/method", fmt::format("{} is not run here (what the service shows counts trials as they come); use "
+                                         "monte_carlo, or steerstat run",
+                                         sampling_method_names[static_cast<std::size_t>(study.sampling.method)])});
+  }
   if (plan.trials() > limits.trials) {
     errors.push_back(
         {"/sampling/trials", fmt::format("{} trials in all cells together (at most {} here); ask for fewer",

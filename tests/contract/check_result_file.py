@@ -14,6 +14,7 @@ import sys
 
 import h5py
 import numpy as np
+from scipy.stats import norm
 
 OUTCOMES = {"converged": 0, "timeout": 1, "singular": 2, "diverged": 3, "integrator_failed": 4}
 PHASES = {"align": 0, "drift": 1, "contraction": 2, "swing": 3}
@@ -58,6 +59,7 @@ TRAJECTORY = {
 PARAMETER_UNITS = {
     "plant.m1": "kg",
     "plant.m2": "kg",
+    "plant.f1": "N s/m",
     "plant.f2": "N m s/rad",
     "initial_state.q1": "m",
     "initial_state.q2": "rad",
@@ -134,10 +136,33 @@ def trials_a_draw(spec, names):
     return len(names) + 2 if spec["sampling"]["method"] == "sobol_indices" else 1
 
 
+def check_weights(file, spec):
+    """Of importance sampling from uniform distributions: the densities at the stored draws."""
+    def over_nominal(component):
+        ratio = 1.0
+        for name, tilt in component["inputs"].items():
+            group, key = name.split(".", 1)
+            low, high = spec[group][key]["uniform"]
+            z = norm.ppf((file["parameters"][name][:] - low) / (high - low))
+            ratio = ratio * norm.pdf(z, tilt["shift"], tilt["scale"]) / norm.pdf(z)
+        return ratio
+
+    proposal = spec["sampling"]["proposal"]
+    total = sum(component["share"] for component in proposal["components"])
+    mixture = proposal["nominal"] + sum((1 - proposal["nominal"]) * component["share"] / total * over_nominal(component)
+                                        for component in proposal["components"])
+    found = file["trials/weight"][:]
+    equal("weights", bool(np.allclose(found, 1 / mixture, rtol=1e-7)), True)  # a draw near its bound has lost digits
+
+
 def check_trials(file, spec):
     trials = file["trials"]
     rows = len(trials["index"])
-    check_columns(trials, TRIALS, rows)
+    method = spec["sampling"]["method"]
+    own = {"importance": {"weight": ("<f8", "1")}, "subset_simulation": {"level": ("<u4", "1")}}.get(method, {})
+    check_columns(trials, TRIALS | own, rows)
+    if method == "importance":
+        check_weights(file, spec)
     names, cells = varying_inputs(spec)
     check_columns(file["parameters"], {name: ("<f8", PARAMETER_UNITS[name]) for name in names}, rows)
     index = trials["index"][:]
@@ -148,6 +173,10 @@ def check_trials(file, spec):
     equal("settling times", np.array_equal(trials["settling_time"][:], expected, equal_nan=True), True)
     if file.attrs["complete"]:
         listed = spec["sampling"].get("trials", 1)
+        if method == "subset_simulation":
+            states = listed
+            equal("levels", bool(np.array_equal(trials["level"][:], levels_of(index, states))), True)
+            listed = states + int(trials["level"][:].max()) * (states - states // 10)
         draws = len(listed) if isinstance(listed, list) else listed
         # A study that stops on precision is complete with fewer trials: whole looks.
         if "stop" in spec and rows < draws * cells:
@@ -219,6 +248,62 @@ def check_seal(path):
     equal("seal", content[-82:], seal)
 
 
+def levels_of(index, states):
+    """All states of level 0 are drawn; a tenth of each further one's are states of the level before."""
+    return np.where(index < states, 0, 1 + (index.astype(np.int64) - states) // (states - states // 10))
+
+
+def check_by_levels(found, file, spec):
+    """Of a subset simulation: the levels again, from the trials, with the Metropolis chains as they must have gone."""
+    status = file["trials/status"][:]
+    equal("outcomes", found["outcomes"], {name: int(np.sum(status == v)) for name, v in OUTCOMES.items()})
+    time = np.where(status == 0, file["trials/end_time"][:], np.inf)
+    states = spec["sampling"]["trials"]
+    chains, row, threshold, product = np.arange(states), states, -np.inf, 1.0
+    for number, level in enumerate(found["rare_failures"]["levels"]):
+        reaches = time[chains] >= (np.inf if level["threshold"] is None else level["threshold"])
+        equal(f"probability of level {number}", level["probability"], np.mean(reaches))
+        equal(f"failures of level {number}", level["failures"], int(np.sum(np.isinf(time[chains]))))
+        product *= level["probability"]
+        if level["threshold"] is None:
+            break
+        equal(f"threshold of level {number} rises", level["threshold"] > threshold, True)
+        threshold = level["threshold"]
+        now = chains[np.argsort(-time[chains], kind="stable")][: states // 10]
+        steps = [now]
+        for _ in range(9):
+            candidates = np.arange(row, row + len(now))
+            row += len(now)
+            now = np.where(time[candidates] >= threshold, candidates, now)
+            steps.append(now)
+        chains = np.transpose(steps).ravel()
+    equal("trials of all levels", row, len(time))
+    rate = found["rare_failures"]["failure_rate"]
+    equal("rate", bool(np.isclose(rate["estimate"], product, rtol=1e-12)), True)
+    equal("limits", rate["ci_low"] <= rate["estimate"] <= rate["ci_high"], True)
+    equal("success", found["success_rate"]["estimate"], 1 - rate["estimate"])
+    nominal = found["rare_failures"]["nominal"]
+    equal("plain draws", (nominal["trials"], nominal["failures"]), (states, int(np.sum(np.isinf(time[:states])))))
+
+
+def check_weighted(found, file):
+    """Of the sum of failed trials' weights: no other statistic is of the study's distributions."""
+    status, weight = file["trials/status"][:], file["trials/weight"][:]
+    equal("outcomes", found["outcomes"], {name: int(np.sum(status == v)) for name, v in OUTCOMES.items()})
+    failed = weight[status != 0]
+    rare = found["rare_failures"]
+    equal("failures", rare["failures"], len(failed))
+    for name, value in {"effective_failures": failed.sum() ** 2 / (failed ** 2).sum(), "mean_weight": weight.mean(),
+                        "largest_share": failed.max() / failed.sum(),
+                        "effective_draws": weight.sum() ** 2 / (weight ** 2).sum()}.items():
+        equal(f"{name} {rare[name]} against {value}", bool(np.isclose(rare[name], value, rtol=1e-12)), True)
+    rate = rare["failure_rate"]
+    equal("rate", bool(np.isclose(rate["estimate"], failed.sum() / len(status), rtol=1e-12)), True)
+    equal("limits", rate["ci_low"] < rate["estimate"] < rate["ci_high"], True)
+    equal("success", found["success_rate"]["estimate"], 1 - rate["estimate"])
+    equal("metrics", all(found[name]["count"] == 0 for name in METRICS), True)
+
+
 def check_statistics(what, found, trials, completed=None):
     status = trials["status"]
     equal(f"{what}: outcomes", found["outcomes"], {name: int(np.sum(status == v)) for name, v in OUTCOMES.items()})
@@ -261,6 +346,12 @@ def check_summary(file, spec, path):
         equal("trials at the stop", summary["stop"]["trials"], len(trials["status"]))
         reached = [goal["reached"] for goal in summary["stop"]["until"]]
         equal("reason", summary["stop"]["reason"], "precision_reached" if all(reached) else "max_trials")
+    check_rare = {"importance": lambda: check_weighted(summary, file),
+                  "subset_simulation": lambda: check_by_levels(summary, file, spec)}.get(spec["sampling"]["method"])
+    equal("has rare failures", summary["rare_failures"] is not None, check_rare is not None)
+    if check_rare:
+        check_rare()
+        return
     names, cells = varying_inputs(spec)
     # The statistics of a study of Sobol' indices are those of the first two trials of each row.
     independent = file["trials/index"][:] % trials_a_draw(spec, names) < 2

@@ -35,7 +35,8 @@ std::vector<std::string> with_metrics(std::vector<std::string> before, const std
 TEST(SummaryJson, HasTheInterfacesKeysInItsOrder) {
   const Json json = json_of(made_up_sweep(2));
   EXPECT_EQ(keys_of(json), with_metrics({"study", "complete", "trials", "success_rate", "outcomes"},
-                                        {"stop", "cells", "sensitivity", "gates", "baseline", "audit", "performance"}));
+                                        {"stop", "cells", "sensitivity", "rare_failures", "gates", "baseline", "audit",
+                                         "performance"}));
   EXPECT_EQ(keys_of(json["study"]),
             (std::vector<std::string>{"id", "name", "spec_sha256", "population_sha256", "engine_version", "seed"}));
   EXPECT_EQ(keys_of(json["trials"]), (std::vector<std::string>{"requested", "completed"}));

@@ -5,12 +5,15 @@
 
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 #include <thread>
 #include <tuple>
 
 #include "core/errors.hpp"
 #include "core/version.hpp"
 #include "sample_result.hpp"
+#include "study/spec_json.hpp"
+#include "study/subset_simulation.hpp"
 #include "trial/trial.hpp"
 
 namespace steerstat {
@@ -56,6 +59,22 @@ TEST_F(ResultFile, ReadsBackTheSameBits) {
   EXPECT_EQ(stored.engine_version, engine_version());
   EXPECT_THAT(stored.created, MatchesRegex("20..-..-..T..:..:..Z"));
   expect_same_trials(stored.result, result);
+}
+
+TEST_F(ResultFile, HasTheTrialsOfASubsetSimulationWhichItsSpecAloneHasNot) {
+  const Study study = decode_study(
+      R"({"plant": {"f2": {"uniform": [0, 0.03]}}, "metrics": false, "audit": {"trials": 2},
+          "sampling": {"method": "subset_simulation", "trials": 100}})",
+      {});
+  SubsetRun run = run_subset_simulation(study, {});
+  write_result(path_, run.study, run.result);
+  const StoredStudy stored = read_result(path_);
+  EXPECT_EQ(stored.study, run.study);
+  expect_same_trials(stored.result, run.result);
+
+  run.result.trials.outcomes.pop_back();
+  run.result.trials.index.pop_back();
+  EXPECT_THROW(write_result(path_, run.study, run.result), std::invalid_argument);
 }
 
 TEST_F(ResultFile, KeepsWhatItRanOnAndSaysNoneOfTheReference) {
