@@ -11,7 +11,7 @@ import { Narrowing } from "../plots/narrowing";
 import { Outcomes } from "../plots/outcomes";
 import { trialLink } from "../route";
 
-const methodWords = { wilson: "Wilson", clopper_pearson: "Clopper and Pearson", confidence_sequence: "confidence sequence" };
+const methodWords = { wilson: "Wilson", clopper_pearson: "Clopper and Pearson", confidence_sequence: "confidence sequence", lognormal: "lognormal", fay_feuer: "Fay and Feuer" };
 
 export function Overview({ view }: { view: StudyView }) {
   const { summary } = view;
