@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "all_rows.hpp"
 #include "commands.hpp"
 #include "output.hpp"
 #include "report/comparison.hpp"
@@ -34,6 +35,8 @@ ComparedStudy compared(const StoredStudy& stored) {
 ExitCode run(const Request& request) {
   const StoredStudy a = read_result(request.a);
   const StoredStudy b = read_result(request.b);
+  require_all_rows(a, request.a, "a comparison, trial by trial,");
+  require_all_rows(b, request.b, "a comparison, trial by trial,");
   const Comparison comparison = compare(compared(a), compared(b));
   print(request.json
             ? comparison_json(comparison)

@@ -97,10 +97,11 @@ void DurableRun::resume() {
     return;
   }
   FinishedTrials of_parts = recover();
-  if (earlier) finished_ = {std::move(earlier->result.trials), earlier->result.wall_s};
+  if (earlier) {
+    finished_ = {std::move(earlier->result.trials), earlier->result.wall_s, std::move(earlier->result.sketch)};
+  }
   finished_ = joined(std::move(finished_), std::move(of_parts));
-  tell(fmt::format("resuming after {} of {} trials", readable_count(finished_.trials.index.size()),
-                   readable_count(due_)));
+  tell(fmt::format("resuming after {} of {} trials", readable_count(finished_.count()), readable_count(due_)));
 }
 
 /// Why `stored`, found at `place`, cannot be continued; "" where it can.
@@ -136,7 +137,7 @@ void DurableRun::require_continuation(const StoredStudy& stored, const fs::path&
 
 /// @param stored  to be continued
 bool DurableRun::has_nothing_left(const StoredStudy& stored) const {
-  const std::uint64_t there = stored.result.trials.index.size();
+  const std::uint64_t there = stored.result.finished();
   if (share_) return there == due_;
   return stored.result.complete && stored.result.audit.trials.size() == std::min(study_.audited_trials, there) &&
          spec_sha256(stored.study) == spec_sha256(study_);

@@ -49,6 +49,11 @@ void add_export(CLI::App& program, ExitCode& exit_code) {
       write_text(output, text);
       tell(fmt::format("wrote {} trials to {}", readable_count(stored.result.trials.index.size()), output.string()));
     }
+    if (stored.study.store != Store::all) {
+      tell(fmt::format("of {} trials these are the ones whose rows were kept: {}those audited and those retained",
+                       readable_count(stored.result.finished()),
+                       stored.study.store == Store::failed ? "those that failed, " : ""));
+    }
     exit_code = ExitCode::done;
   });
 }

@@ -76,7 +76,7 @@ ExitCode merge(const Request& request) {
   options.threads = request.threads;
   options.stop = interruption.token();
   const StudyResult result = merged(joined, options);
-  const std::uint64_t to_audit = std::min<std::uint64_t>(study.audited_trials, result.trials.index.size());
+  const std::uint64_t to_audit = std::min<std::uint64_t>(study.audited_trials, result.finished());
   if (result.audit.trials.size() < to_audit) {
     tell("interrupted during the audit; nothing was written, and the shards are as they were");
     return ExitCode::interrupted;

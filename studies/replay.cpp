@@ -6,6 +6,7 @@
 #include <charconv>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "commands.hpp"
 #include "core/errors.hpp"
@@ -20,7 +21,7 @@ namespace steerstat {
 namespace {
 
 constexpr const char* epilogue = R"(The trial is recomputed from the parameters stored in the file, and must end in the
-same bits as the stored trial. Columns: t,q1,q2,q1_dot,q2_dot,a,tau,phase.
+same bits as the stored trial, where its row was kept. Columns: t,q1,q2,q1_dot,q2_dot,a,tau,phase.
 
 Examples:
   steerstat replay result.h5 --trial 17 | less
@@ -32,20 +33,28 @@ struct Request {
   std::string output{"-"};
 };
 
-/// Where trial `text` stands among the stored rows. @throws BadUsage naming the trials there are
-std::size_t row_of(const std::string& text, const StoredStudy& stored, const std::string& file) {
-  const std::vector<std::uint64_t>& indices = stored.result.trials.index;
-  if (indices.empty())
-    throw BadUsage(fmt::format("{} holds no trials: its run was interrupted before the first", file));
+/// Which trial is meant. @throws BadUsage naming the trials there are
+std::uint64_t index_of(const std::string& text, const StoredStudy& stored, const std::string& file) {
+  const StudyResult& result = stored.result;
+  const std::vector<TrialRange> known = result.sketch ? result.sketch->trials() : ranges_of(result.trials.index);
+  if (known.empty()) throw BadUsage(fmt::format("{} holds no trials: its run was interrupted before the first", file));
   std::uint64_t index = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
-  const auto found = std::lower_bound(indices.begin(), indices.end(), index);
   const bool number = error == std::errc() && end == text.data() + text.size();
-  if (!number || found == indices.end() || *found != index) {
-    const std::string those = indices.size() == 1 ? fmt::format("trial {} alone", indices.front())
-                                                  : fmt::format("trials {} to {}", indices.front(), indices.back());
-    throw BadUsage(fmt::format("--trial: there is no trial {} in {}; it holds {}", text, file, those));
-  }
+  const auto has = [index](TrialRange range) { return range.begin <= index && index < range.end; };
+  if (number && std::any_of(known.begin(), known.end(), has)) return index;
+  const std::uint64_t first = known.front().begin;
+  const std::uint64_t last = known.back().end - 1;
+  const std::string those =
+      first == last ? fmt::format("trial {} alone", first) : fmt::format("trials {} to {}", first, last);
+  throw BadUsage(fmt::format("--trial: there is no trial {} in {}; it holds {}", text, file, those));
+}
+
+/// Where its row stands, if it was kept.
+std::optional<std::size_t> row_of(std::uint64_t index, const StoredStudy& stored) {
+  const std::vector<std::uint64_t>& indices = stored.result.trials.index;
+  const auto found = std::lower_bound(indices.begin(), indices.end(), index);
+  if (found == indices.end() || *found != index) return std::nullopt;
   return static_cast<std::size_t>(found - indices.begin());
 }
 
@@ -73,14 +82,18 @@ ExitCode run(const Request& request) {
   require_known_format(output);
   if (output != "-") require_writable(output);
   const StoredStudy stored = read_result(request.file);
-  const std::size_t row = row_of(request.trial, stored, request.file);
-  const std::uint64_t index = stored.result.trials.index[row];
+  const std::uint64_t index = index_of(request.trial, stored, request.file);
+  const std::optional<std::size_t> row = row_of(index, stored);
 
   const Plan plan(stored.study);
-  std::vector<double> values;
-  for (const std::vector<double>& column : stored.parameters) values.push_back(column[row]);
+  std::vector<double> values(plan.varying().size());
+  if (row) {
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = stored.parameters[i][*row];
+  } else {
+    plan.draw(index, values);  // the same, as the draws of a trial depend on nothing but spec and index
+  }
   const Trajectory trajectory = replay(plan.parameters_with(index, values), stored.study.integrator);
-  require_same_end(trajectory.outcome, stored.result.trials.outcomes[row], stored, request.file, index);
+  if (row) require_same_end(trajectory.outcome, stored.result.trials.outcomes[*row], stored, request.file, index);
 
   const std::string text = output.extension() == ".json"
                                ? trajectory_json(stored.study, index, plan.varying(), values, trajectory)

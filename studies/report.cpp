@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "all_rows.hpp"
 #include "commands.hpp"
 #include "core/errors.hpp"
 #include "output.hpp"
@@ -41,6 +42,7 @@ ExitCode run(const Request& request) {
                     "come; use show, or export and weigh them",
                     request.file));
   }
+  require_all_rows(stored, request.file, "a report, whose maps count trials,");
   const Summary summary = summarise(stored.study, stored.result);
   ReportOptions options;
   options.file = std::filesystem::path(request.file).filename().string();

@@ -105,6 +105,15 @@ std::optional<StudyShare> share_of(const Request& request) {
   return share;
 }
 
+/// @throws BadUsage for a study that has to see its trials in order, where they run in several places
+void require_together(const Study& study, const Request& request, const Ranks* ranks) {
+  if (study.store == Store::all || !study.stop || (!request.shard && ranks == nullptr)) return;
+  throw BadUsage(fmt::format(
+      "{}: the spec has a \"stop\" and does not store all rows (a sketch of trials beyond the stop cannot be cut where "
+      "it stops); remove \"stop\", store \"all\", or run it in one process",
+      request.shard ? "--shard" : "several ranks"));
+}
+
 /// @param durable  null where the trials are not kept
 /// @param ranks    null where this process is alone
 StudyResult run_trials(const Study& study, const Request& request, InstructionSet simd,
@@ -142,7 +151,7 @@ std::optional<Baseline> read_baseline(const Request& request, const Study& study
 
 /// Says that a run ended early, where it did. @return whether it did
 bool tell_of_interruption(const Study& study, const Request& request, const StudyResult& result) {
-  const std::uint64_t finished = result.trials.index.size();
+  const std::uint64_t finished = result.finished();
   const std::uint64_t audited = result.audit.trials.size();
   if (result.share) {
     const TrialRange range = trials_of(study, *result.share);
@@ -208,6 +217,7 @@ ExitCode run(const Request& request, Ranks* ranks) {
   const Study& study = std::get<Study>(spec);
   if (study.sampling.method == SamplingMethod::subset_simulation) return run_by_levels(study, request, simd, ranks);
   const std::optional<StudyShare> share = share_of(request);
+  require_together(study, request, ranks);
   const std::optional<Baseline> baseline = read_baseline(request, study);
   check_outputs(request);
   const Interruption interruption;  // to the end: an interrupt must not cost the outputs of a run that is over

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "all_rows.hpp"
 #include "commands.hpp"
 #include "core/errors.hpp"
 #include "output.hpp"
@@ -84,6 +85,7 @@ ExitCode show(const Request& request) {
         "use monte_carlo");
   }
   if (request.sensitivity) {
+    require_all_rows(stored, request.file, "--sensitivity, which bins them by their inputs,");
     show_sensitivity(request, stored, outputs);
     return ExitCode::done;
   }

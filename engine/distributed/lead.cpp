@@ -13,6 +13,7 @@
 #include "distributed/job.hpp"
 #include "distributed/prefix_watch.hpp"
 #include "distributed/range_dealer.hpp"
+#include "store/sketched_part.hpp"
 #include "study/spec_json.hpp"
 
 namespace steerstat {
@@ -46,12 +47,13 @@ class Leader {
   Leader(Ranks& ranks, const Study& study, const RunOptions& options, const FinishedTrials& earlier,
          StudyDirectory* directory, bool gather)
       : ranks_(ranks),
+        study_(study),
         options_(options),
         directory_(directory),
         writes_(directory != nullptr && gather),
         keeps_pieces_(directory == nullptr || gather),
         trials_(Plan(study).trials()),
-        dealer_(ranges_of(earlier.trials.index), trials_, block_size(study), static_cast<unsigned>(ranks.count())),
+        dealer_(earlier.ranges(), trials_, unit_of(study), static_cast<unsigned>(ranks.count())),
         watch_(study, earlier.trials),
         workers_(static_cast<std::size_t>(ranks.count())) {
     progress_.requested = trials_;
@@ -80,7 +82,10 @@ class Leader {
     if (!failure_.empty()) throw RunFailure(failure_);
   }
 
-  [[nodiscard]] std::vector<Piece> take_pieces() { return std::move(pieces_); }
+  /// What ranks have sent, where it is kept in memory.
+  [[nodiscard]] FinishedTrials take_finished() {
+    return study_.store == Store::all ? in_order(std::move(pieces_)) : std::move(sketched_);
+  }
   [[nodiscard]] bool keeps_pieces() const { return keeps_pieces_; }
   [[nodiscard]] double seconds() const { return seconds_since(start_); }
   [[nodiscard]] unsigned threads() const { return threads_; }
@@ -110,7 +115,12 @@ class Leader {
         return;
       case MessageKind::finished: {
         const auto finished = reader.get<FinishedRange>();
-        take(worker, finished, reader.get_rest<TrialOutcome>());
+        note(worker, finished);
+        if (study_.store == Store::all) {
+          take(finished, reader.get_rest<TrialOutcome>());
+        } else {
+          take_sketched(reader.get_rest<std::byte>());
+        }
         return deal(message.from);
       }
       default:
@@ -118,19 +128,36 @@ class Leader {
     }
   }
 
-  void take(Worker& worker, const FinishedRange& finished, std::vector<TrialOutcome> outcomes) {
+  void note(Worker& worker, const FinishedRange& finished) {
     worker.under_way = 0;
     completed_ += finished.count;
     if (finished.wall_s > 0.0) worker.rate = static_cast<double>(finished.count) / finished.wall_s;
     if (finished.count < worker.range.end - worker.range.begin) dealer_.halt();  // it was interrupted
+  }
+
+  void take(const FinishedRange& finished, std::vector<TrialOutcome> outcomes) {
     if (outcomes.empty()) return;
+    if (writes_) attempt([&] { directory_->keep(finished.begin, outcomes, finished.wall_s); });
+    if (keeps_pieces_) pieces_.push_back({finished.begin, outcomes});
+    watch_.add(finished.begin, std::move(outcomes));
+  }
+
+  void take_sketched(std::span<const std::byte> part) {
+    if (part.empty()) return;
+    attempt([&] {
+      FinishedTrials piece = sketched_part_of(part, origin_of(study_), study_);
+      if (writes_) directory_->keep(piece);
+      sketched_ = joined(std::move(sketched_), std::move(piece));
+    });
+  }
+
+  template <class Action>
+  void attempt(const Action& action) {
     try {
-      if (writes_) directory_->keep(finished.begin, outcomes, finished.wall_s);
+      action();
     } catch (const RunFailure& failure) {
       note(failure.what());
     }
-    if (keeps_pieces_) pieces_.push_back({finished.begin, outcomes});
-    watch_.add(finished.begin, std::move(outcomes));
   }
 
   /// Gives a rank its next range, or tells it that there is none.
@@ -175,7 +202,13 @@ class Leader {
     }
   }
 
+  /// A sketch can take any draws, and no trial twice; rows any blocks, where a trial may run again.
+  static std::uint64_t unit_of(const Study& study) {
+    return study.store == Store::all ? block_size(study) : Plan(study).cells();
+  }
+
   Ranks& ranks_;
+  const Study& study_;
   const RunOptions& options_;
   StudyDirectory* const directory_;
   const bool writes_;        // outcomes into the directory
@@ -187,6 +220,7 @@ class Leader {
   std::vector<Worker> workers_;  // by rank
   int working_{0};               // ranks that were not told that it is over
   std::vector<Piece> pieces_;
+  FinishedTrials sketched_;  // instead, of a study that does not keep all rows
   std::uint64_t completed_{0};
   std::string failure_;
   std::exception_ptr callback_failure_{};
@@ -214,7 +248,7 @@ RankedRun run_on_ranks(Ranks& ranks, const Study& study, const RunOptions& optio
   const double wall_s = earlier.wall_s + leader.seconds();
   FinishedTrials now;
   if (leader.keeps_pieces()) {
-    now = in_order(leader.take_pieces());
+    now = leader.take_finished();
   } else {
     Recovery recovery = directory->recover();
     now = std::move(recovery.finished);

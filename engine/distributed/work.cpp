@@ -11,6 +11,7 @@
 #include "core/errors.hpp"
 #include "distributed/job.hpp"
 #include "store/shard.hpp"
+#include "store/sketched_part.hpp"
 #include "study/run.hpp"
 #include "study/spec_json.hpp"
 
@@ -44,6 +45,7 @@ class SharedDirectorySink final : public OutcomeSink {
     write_shard(directory_, origin_, begin, outcomes, std::chrono::duration<double>(now - last_).count());
     last_ = now;
   }
+  void take_sketched(const FinishedTrials& piece) override { write_sketched_part(directory_, origin_, piece); }
 
  private:
   const std::filesystem::path directory_;
@@ -87,10 +89,17 @@ class Worker {
 
   void run(TrialRange range) {
     last_progress_ = Clock::now();
-    const StudyResult result = run_range(study_, range, run_options_);
+    StudyResult result = run_range(study_, range, run_options_);
+    const std::uint64_t finished = result.finished();
     MessageWriter message;
-    message.put(FinishedRange{range.begin, result.trials.index.size(), result.wall_s});
-    if (job_.send_outcomes) message.put_all(std::span(result.trials.outcomes));
+    message.put(FinishedRange{range.begin, finished, result.wall_s});
+    if (job_.send_outcomes && !result.sketch) {
+      message.put_all(std::span(result.trials.outcomes));
+    } else if (job_.send_outcomes && finished > 0) {
+      const FinishedTrials piece{std::move(result.trials), result.wall_s, std::move(result.sketch)};
+      const std::vector<std::byte> part = sketched_part_bytes(origin_of(study_), piece);
+      message.put_all(std::span(part));
+    }
     ranks_.send_to_leader(MessageKind::finished, message.bytes());
   }
 

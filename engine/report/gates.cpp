@@ -10,8 +10,6 @@
 namespace steerstat {
 namespace {
 
-using Samples = std::vector<std::vector<double>>;  // (cells, or one) x the values of the trials that have the metric
-
 /// The probability of a quantile; nothing for another quantity.
 std::optional<double> probability_of(Quantity quantity) {
   switch (quantity) {
@@ -65,8 +63,23 @@ Evidence rate_evidence(Status outcome, const Question& question, const TrialStat
   return {value, {rate->low, rate->high}, question.independence.doubt()};
 }
 
-/// @param values  of the metric, in any order; only a quantile needs them
-Evidence sample_evidence(const Question& question, const TrialStatistics& statistics, std::vector<double> values) {
+/// The values that a quantile is of, whichever way there are any.
+struct Values {
+  std::vector<double> listed;             ///< in any order
+  const QuantileSketch* sketch{nullptr};  ///< where they are not listed
+};
+
+SampleInterval quantile_interval_of(const Question& question, const Metric& metric, Values values, double p) {
+  if (values.sketch != nullptr) {
+    const SketchedOrder order(*values.sketch);
+    return order.between(question.independence.quantile_ranks_of_trials(order.size(), p));
+  }
+  std::sort(values.listed.begin(), values.listed.end());
+  return question.independence.quantile(metric, values.listed, p, question.in_cell);
+}
+
+/// @param values  of the metric; only a quantile needs them
+Evidence sample_evidence(const Question& question, const TrialStatistics& statistics, Values values) {
   const Metric& metric = *find_metric(question.gate.metric);
   const std::optional<SampleStatistics>& sample = statistics.of(metric.name);
   const Quantity quantity = question.gate.expression.quantity;
@@ -76,23 +89,30 @@ Evidence sample_evidence(const Question& question, const TrialStatistics& statis
   if (quantity == Quantity::mean) {
     evidence.interval = question.independence.mean(metric, *sample, question.in_cell);
   } else if (const auto p = probability_of(quantity)) {
-    std::sort(values.begin(), values.end());
-    evidence.interval = question.independence.quantile(metric, values, *p, question.in_cell);
+    evidence.interval = quantile_interval_of(question, metric, std::move(values), *p);
   }
   return evidence;
 }
 
-/// The values that a gate's quantile is of; empty where it asks for none.
-Samples samples_for(const Gate& gate, bool by_cell, const Plan& plan, const TrialTable& trials) {
-  Samples samples(by_cell ? plan.cells() : 1);
+/// The values that a gate's quantile is of, (cells, or one); empty where it asks for none.
+std::vector<Values> values_for(const Gate& gate, bool by_cell, const Plan& plan, const StudyResult& result) {
+  std::vector<Values> values(by_cell ? plan.cells() : 1);
   const Metric* metric = find_metric(gate.metric);
-  if (metric == nullptr || !probability_of(gate.expression.quantity)) return samples;
+  if (metric == nullptr || !probability_of(gate.expression.quantity)) return values;
+  if (result.sketch) {
+    // Over several cells no gate asks a sketch for a quantile (check_store()).
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values[i].sketch = &result.sketch->cells()[i].metrics[metric_index(gate.metric)].quantiles;
+    }
+    return values;
+  }
+  const TrialTable& trials = result.trials;
   for (std::size_t row = 0; row < trials.index.size(); ++row) {
     if (!plan.is_independent(trials.index[row])) continue;  // as in the rest of the summary
     const double value = metric->value(trials.outcomes[row]);
-    if (!std::isnan(value)) samples[by_cell ? plan.cell_of(trials.index[row]) : 0].push_back(value);
+    if (!std::isnan(value)) values[by_cell ? plan.cell_of(trials.index[row]) : 0].listed.push_back(value);
   }
-  return samples;
+  return values;
 }
 
 bool is_in(const std::vector<Plan::SweptValue>& cell, const std::vector<Gate::SweptValue>& choice) {
@@ -103,7 +123,7 @@ bool is_in(const std::vector<Plan::SweptValue>& cell, const std::vector<Gate::Sw
   });
 }
 
-GateVerdict verdict_on(const Question& question, const TrialStatistics& statistics, std::vector<double> values,
+GateVerdict verdict_on(const Question& question, const TrialStatistics& statistics, Values values,
                        std::string_view shortfall) {
   const Gate& gate = question.gate;
   const auto outcome = outcome_of_rate(gate.metric);
@@ -116,22 +136,22 @@ GateVerdict verdict_on(const Question& question, const TrialStatistics& statisti
 
 }  // namespace
 
-std::vector<GateVerdict> judge_gates(const Study& study, const Plan& plan, const TrialTable& trials,
+std::vector<GateVerdict> judge_gates(const Study& study, const Plan& plan, const StudyResult& result,
                                      const Summary& summary) {
   const std::string shortfall = shortfall_of(summary);
-  const Independence independence(study, plan, trials);
+  const Independence independence(study, plan, result);
   std::vector<GateVerdict> verdicts;
   for (const Gate& gate : study.gates) {
     const bool by_cell = (gate.each_cell || !gate.cell.empty()) && !summary.cells.empty();
-    Samples samples = samples_for(gate, by_cell, plan, trials);
+    std::vector<Values> values = values_for(gate, by_cell, plan, result);
     if (!by_cell) {
-      verdicts.push_back(verdict_on({gate, independence, false}, summary.all, std::move(samples.front()), shortfall));
+      verdicts.push_back(verdict_on({gate, independence, false}, summary.all, std::move(values.front()), shortfall));
       continue;
     }
     for (std::size_t i = 0; i < summary.cells.size(); ++i) {
       const Summary::Cell& cell = summary.cells[i];
       if (!is_in(cell.sweep, gate.cell)) continue;
-      verdicts.push_back(verdict_on({gate, independence, true}, cell.statistics, std::move(samples[i]), shortfall));
+      verdicts.push_back(verdict_on({gate, independence, true}, cell.statistics, std::move(values[i]), shortfall));
       verdicts.back().cell = cell.sweep;
     }
   }

@@ -16,9 +16,9 @@ namespace steerstat {
 /// quantiles, as a confidence sequence where the rates' is one; by Student's t for means, which has no such form. Over
 /// all cells of a sweep they count draws; see Independence for what each sampling leaves independent.
 ///
-/// @param trials   what the summary is of
+/// @param result   what the summary is of
 /// @param summary  with its statistics, overall and by cell
-std::vector<GateVerdict> judge_gates(const Study& study, const Plan& plan, const TrialTable& trials,
+std::vector<GateVerdict> judge_gates(const Study& study, const Plan& plan, const StudyResult& result,
                                      const Summary& summary);
 
 }  // namespace steerstat

@@ -23,8 +23,8 @@ bool has_draws(const Study& study) {
 
 }  // namespace
 
-Independence::Independence(const Study& study, const Plan& plan, const TrialTable& trials)
-    : study_(study), plan_(plan), trials_(trials) {}
+Independence::Independence(const Study& study, const Plan& plan, const StudyResult& result)
+    : study_(study), plan_(plan), trials_(result.trials), sketch_(result.sketch ? &*result.sketch : nullptr) {}
 
 IntervalUnit Independence::unit(bool in_cell) const {
   if (is_sequence(study_.sampling)) return IntervalUnit::none;
@@ -58,6 +58,17 @@ std::vector<ClusterSum> Independence::by_draw(const std::function<double(const T
   return clusters;
 }
 
+/// A sketch has whole draws.
+EqualClusters Independence::by_draw(Status outcome) const {
+  const auto status = static_cast<std::size_t>(outcome);
+  EqualClusters clusters;
+  clusters.size = plan_.cells();
+  clusters.clusters = sketch_->count() / clusters.size;
+  for (const TrialSketch::Cell& cell : sketch_->cells()) clusters.successes += cell.outcomes[status];
+  clusters.squares = sketch_->squares()[status];
+  return clusters;
+}
+
 std::optional<ProportionInterval> Independence::rate(Status outcome, const TrialStatistics& statistics,
                                                      bool in_cell) const {
   const std::uint64_t n = statistics.completed;
@@ -65,6 +76,7 @@ std::optional<ProportionInterval> Independence::rate(Status outcome, const Trial
   if (seeks_failures(study_.sampling.method)) return statistics.success_rate;  // no other rate is asked for
   const auto& [method, level] = study_.intervals;
   if (unit(in_cell) == IntervalUnit::draw) {
+    if (sketch_ != nullptr) return equal_clusters_proportion(method, by_draw(outcome), level);
     const auto sums = by_draw([&](const TrialOutcome& o) { return o.status == outcome ? 1.0 : 0.0; });
     return clustered_proportion(method, sums, level);
   }
@@ -79,8 +91,13 @@ std::optional<ProportionInterval> Independence::rate(Status outcome, const Trial
 
 double Independence::effective_trials(const TrialStatistics& statistics, bool in_cell) const {
   if (unit(in_cell) != IntervalUnit::draw) return stratified(static_cast<double>(statistics.completed));
+  const bool always = study_.intervals.method == ProportionMethod::confidence_sequence;
+  if (sketch_ != nullptr) {
+    const EqualClusters draws = by_draw(Status::converged);
+    return always ? static_cast<double>(draws.clusters) : effective_trials_of_equal(draws, study_.intervals.level);
+  }
   const auto sums = by_draw([](const TrialOutcome& o) { return o.status == Status::converged ? 1.0 : 0.0; });
-  if (study_.intervals.method == ProportionMethod::confidence_sequence) return static_cast<double>(sums.size());
+  if (always) return static_cast<double>(sums.size());
   return steerstat::effective_trials(sums, study_.intervals.level);
 }
 
@@ -108,12 +125,16 @@ SampleInterval Independence::quantile(const Metric& metric, std::span<const doub
     return between(sorted, always ? clustered_confidence_sequence_ranks(sums, plan_.cells(), p, level)
                                   : clustered_quantile_ranks(sums, p, level));
   }
-  if (always) return quantile_confidence_sequence(sorted, p, level);
-  const auto n = static_cast<double>(sorted.size());
-  const double effective = std::floor(stratified(n));
-  if (effective == n || effective < 1.0) return quantile_interval(sorted, p, level);
-  return between(sorted,
-                 stretched(quantile_ranks(static_cast<std::uint64_t>(effective), p, level), effective, sorted.size()));
+  return between(sorted, quantile_ranks_of_trials(sorted.size(), p));
+}
+
+QuantileRanks Independence::quantile_ranks_of_trials(std::uint64_t n, double p) const {
+  const auto& [method, level] = study_.intervals;
+  if (method == ProportionMethod::confidence_sequence) return confidence_sequence_ranks(n, p, level);
+  const auto all = static_cast<double>(n);
+  const double effective = std::floor(stratified(all));
+  if (effective == all || effective < 1.0) return quantile_ranks(n, p, level);
+  return stretched(quantile_ranks(static_cast<std::uint64_t>(effective), p, level), effective, n);
 }
 
 }  // namespace steerstat

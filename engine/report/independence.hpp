@@ -15,7 +15,7 @@
 namespace steerstat {
 
 /// What of a study's trials is independent of what, and the intervals that follow from it. Borrows the plan and the
-/// trials; safe to share between threads.
+/// result; safe to share between threads.
 ///
 /// - Trials of a draw in several cells share its values: over all cells the draw is the unit
 /// (statistics/clustered.hpp).
@@ -27,7 +27,7 @@ namespace steerstat {
 ///   interval that bears a level. Intervals of independent trials are given, of no unit, and no verdict rests on them.
 class Independence {
  public:
-  Independence(const Study& study, const Plan& plan, const TrialTable& trials);
+  Independence(const Study& study, const Plan& plan, const StudyResult& result);
 
   /// @param in_cell  whether the statistics are of one cell, or of all
   [[nodiscard]] IntervalUnit unit(bool in_cell) const;
@@ -51,13 +51,18 @@ class Independence {
   [[nodiscard]] SampleInterval quantile(const Metric& metric, std::span<const double> sorted, double p,
                                         bool in_cell) const;
 
+  /// The ranks that bound the p-quantile of n values, where the trial is the unit.
+  [[nodiscard]] QuantileRanks quantile_ranks_of_trials(std::uint64_t n, double p) const;
+
  private:
   [[nodiscard]] std::vector<ClusterSum> by_draw(const std::function<double(const TrialOutcome&)>& value) const;
+  [[nodiscard]] EqualClusters by_draw(Status outcome) const;
   [[nodiscard]] double stratified(double trials) const;
 
   const Study& study_;
   const Plan& plan_;
   const TrialTable& trials_;
+  const TrialSketch* sketch_;  // null where all rows are there
 };
 
 }  // namespace steerstat

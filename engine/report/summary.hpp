@@ -100,6 +100,7 @@ struct Summary {
   unsigned threads{0};
   std::optional<InstructionSet> simd;  ///< what lockstep ran on
   std::optional<StudyShare> share;     ///< where the trials are a share of the study
+  Store store{Store::all};             ///< but for all rows, the statistics are those of sketches
 };
 
 /// Summarises finished trials. The same trials give the same bits, in whatever order and on however many threads they

@@ -184,6 +184,11 @@ std::string summary_json(const Summary& summary) {
   json["gates"] = gates_json(summary.gates);
   json["baseline"] = baseline_json(summary.baseline);
   json["audit"] = audit_json(summary.audit);
+  // In the summary of a study that keeps all rows, as all did before there was a choice, there is nothing to say.
+  if (summary.store != Store::all) {
+    json["sketch"] = {{"store", store_names[static_cast<std::size_t>(summary.store)]},
+                      {"relative_error", QuantileSketch::relative_error}};
+  }
   json["performance"] = performance_json(summary);
   // A name is the user's: were it not UTF-8, it must not cost the summary.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -295,6 +295,12 @@ std::string summary_text(const Summary& summary, bool colour) {
     }
     if (summary.all.completed > 0) text += '\n' + outcome_text(summary.all, colour);
     if (const std::string tables = metric_tables(summary.all, colour); !tables.empty()) text += '\n' + tables;
+    if (summary.store != Store::all && summary.all.completed > 0) {
+      text += styled(fmt::format("  Quantiles are a sketch's, within {:.1f} %; the rows of {} are kept.\n",
+                                 100.0 * QuantileSketch::relative_error,
+                                 summary.store == Store::failed ? "failed trials" : "no trials"),
+                     faint, colour);
+    }
     if (!summary.cells.empty()) text += '\n' + cells_text(summary.cells, summary.intervals.level, colour);
   }
   if (summary.stop && summary.stop->report.reason) text += '\n' + stop_text(summary, colour);

@@ -41,6 +41,21 @@ std::optional<double> ratio_variance(std::span<const ClusterSum> clusters, const
   return n / (n - 1.0) * squares / (count * count);
 }
 
+Sums sums_of(const EqualClusters& clusters) {
+  return {clusters.clusters * clusters.size, static_cast<double>(clusters.successes), clusters.clusters};
+}
+
+/// The same of clusters of one size: with n clusters, the sum of the squared residuals is that of the squares less the
+/// square of the sum over n. In whole numbers, which nothing cancels in.
+std::optional<double> ratio_variance(const EqualClusters& clusters, const Sums& sums) {
+  if (sums.occupied < 2) return std::nullopt;
+  __extension__ using Wide = unsigned __int128;
+  const Wide scaled = Wide{clusters.clusters} * clusters.squares - Wide{clusters.successes} * clusters.successes;
+  const auto n = static_cast<double>(clusters.clusters);
+  const auto count = static_cast<double>(sums.count);
+  return static_cast<double>(scaled) / (n - 1.0) / (count * count);
+}
+
 /// @throws std::invalid_argument for a level outside (0, 1)
 double student_quantile(double degrees, double level) {
   if (!(level > 0.0 && level < 1.0)) throw std::invalid_argument("clustered: needs a level in (0, 1)");
@@ -48,9 +63,8 @@ double student_quantile(double degrees, double level) {
   return boost::math::quantile(boost::math::complement(student, (1.0 - level) / 2.0));
 }
 
-}  // namespace
-
-double effective_trials(std::span<const ClusterSum> clusters, double level) {
+template <class Clusters>
+double effective_trials_of(const Clusters& clusters, double level) {
   const Sums sums = sums_of(clusters);
   const auto trials = static_cast<double>(sums.count);
   if (sums.count == 0) return 0.0;
@@ -64,18 +78,37 @@ double effective_trials(std::span<const ClusterSum> clusters, double level) {
   return std::max(1.0, n * few * few);
 }
 
-ProportionInterval clustered_proportion(ProportionMethod method, std::span<const ClusterSum> clusters, double level) {
+template <class Clusters>
+ProportionInterval proportion_of(ProportionMethod method, const Clusters& clusters, double level) {
   const Sums sums = sums_of(clusters);
   if (sums.count == 0) throw std::invalid_argument("clustered_proportion: needs a trial");
   const double p = sums.total / static_cast<double>(sums.count);
   if (method != ProportionMethod::confidence_sequence) {
-    return proportion_interval_of_share(method, p, effective_trials(clusters, level), level);
+    return proportion_interval_of_share(method, p, effective_trials_of(clusters, level), level);
   }
   const auto n = static_cast<double>(sums.occupied);
   const auto fewest = static_cast<std::uint64_t>(std::floor(p * n));
   const auto most = static_cast<std::uint64_t>(std::min(n, std::ceil(p * n)));
   return {p, confidence_sequence(fewest, sums.occupied, level).low,
           confidence_sequence(most, sums.occupied, level).high, level};
+}
+
+}  // namespace
+
+double effective_trials(std::span<const ClusterSum> clusters, double level) {
+  return effective_trials_of(clusters, level);
+}
+
+double effective_trials_of_equal(const EqualClusters& clusters, double level) {
+  return effective_trials_of(clusters, level);
+}
+
+ProportionInterval clustered_proportion(ProportionMethod method, std::span<const ClusterSum> clusters, double level) {
+  return proportion_of(method, clusters, level);
+}
+
+ProportionInterval equal_clusters_proportion(ProportionMethod method, const EqualClusters& clusters, double level) {
+  return proportion_of(method, clusters, level);
 }
 
 SampleInterval clustered_mean(std::span<const ClusterSum> clusters, double level) {

@@ -16,6 +16,14 @@ struct ClusterSum {
   double total;         ///< of their values; of a proportion, the number of successes
 };
 
+/// Clusters of the same number of trials each, as sums: what they say of a proportion, without a list of them.
+struct EqualClusters {
+  std::uint64_t clusters{0};
+  std::uint64_t size{1};       ///< trials in each; sums of squares fit where size^2 x clusters is below 2^63
+  std::uint64_t successes{0};  ///< in all
+  std::uint64_t squares{0};    ///< sum of the squares of each cluster's successes
+};
+
 /// How many independent trials tell as much of a proportion as these clusters do: p (1 - p) over the variance of the
 /// ratio between clusters (linearised), lessened for that variance being estimated from few clusters
 /// [Korn and Graubard 1998]. Where every trial succeeds, or none, the trials of a cluster might all say the same: then
@@ -25,6 +33,7 @@ struct ClusterSum {
 /// @param level     in (0, 1)
 /// @return from 0, without trials, to the number of trials
 double effective_trials(std::span<const ClusterSum> clusters, double level);
+double effective_trials_of_equal(const EqualClusters& clusters, double level);
 
 /// A proportion's interval by the method asked for. Wilson's and Clopper and Pearson's are those of effective_trials().
 /// A confidence sequence is of as many trials as there are clusters, each a success by the share of its own, rounded
@@ -34,6 +43,7 @@ double effective_trials(std::span<const ClusterSum> clusters, double level);
 /// @param clusters  (clusters) with successes as totals, at least one trial in all
 /// @throws std::invalid_argument without trials, or for a level outside (0, 1)
 ProportionInterval clustered_proportion(ProportionMethod method, std::span<const ClusterSum> clusters, double level);
+ProportionInterval equal_clusters_proportion(ProportionMethod method, const EqualClusters& clusters, double level);
 
 /// The interval of the mean of all trials' values, by Student's t from the variance of the ratio between clusters; no
 /// bounds with fewer than two clusters that have values.

@@ -83,6 +83,12 @@ NumberType type_of(std::uint64_t) {
 NumberType type_of(std::uint32_t) {
   return {H5T_STD_U32LE, H5T_NATIVE_UINT32};
 }
+NumberType type_of(std::int64_t) {
+  return {H5T_STD_I64LE, H5T_NATIVE_INT64};
+}
+NumberType type_of(std::int32_t) {
+  return {H5T_STD_I32LE, H5T_NATIVE_INT32};
+}
 
 Handle enumeration(std::span<const std::string_view> names) {
   Handle type(H5Tenum_create(H5T_STD_U8LE), H5Tclose, "cannot create an enumeration");

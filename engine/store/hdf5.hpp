@@ -75,6 +75,8 @@ struct NumberType {
 NumberType type_of(double);
 NumberType type_of(std::uint64_t);
 NumberType type_of(std::uint32_t);
+NumberType type_of(std::int64_t);
+NumberType type_of(std::int32_t);
 
 /// An enumeration stored as unsigned bytes: names[i] is i.
 Handle enumeration(std::span<const std::string_view> names);

@@ -69,7 +69,7 @@ class Joining {
   JoinedShares end() {
     objections_.raise();
     std::sort(present_.begin(), present_.end(), [](TrialRange a, TrialRange b) { return a.begin < b.begin; });
-    joined_.finished.trials = gathered(std::move(slots_), 0, present_);
+    if (!is_sketched()) joined_.finished.trials = gathered(std::move(slots_), 0, present_);
     require_what_is_due();
     return std::move(joined_);
   }
@@ -114,17 +114,23 @@ class Joining {
     joined_.study = stored.study;
     joined_.simd = stored.result.simd;
     files_.resize(stored.result.share->count);
-    slots_.resize(Plan(joined_.study).trials());
-    trials_ = slots_.size();
+    trials_ = Plan(joined_.study).trials();
+    portion_ = portion_size(joined_.study);
+    if (!is_sketched()) slots_.resize(trials_);
   }
 
   void take(StudyResult result, const fs::path& file) {
     const StudyShare share = *result.share;
     files_[share.number - 1] = file;
-    const TrialTable& trials = result.trials;
-    for (std::size_t row = 0; row < trials.index.size(); ++row) slots_[trials.index[row]] = trials.outcomes[row];
-    const std::vector<TrialRange> ranges = ranges_of(trials.index);
+    FinishedTrials finished{std::move(result.trials), 0.0, std::move(result.sketch)};
+    const std::vector<TrialRange> ranges = finished.ranges();
     present_.insert(present_.end(), ranges.begin(), ranges.end());
+    if (is_sketched()) {
+      joined_.finished = joined(std::move(joined_.finished), std::move(finished));
+    } else {
+      const TrialTable& trials = finished.trials;
+      for (std::size_t row = 0; row < trials.index.size(); ++row) slots_[trials.index[row]] = trials.outcomes[row];
+    }
     joined_.finished.wall_s += result.wall_s;
     joined_.threads = std::max(joined_.threads, result.threads);
     if (result.simd) joined_.simd = std::max(joined_.simd.value_or(*result.simd), *result.simd);  // best first
@@ -132,13 +138,13 @@ class Joining {
 
   /// @throws BadUsage naming the shards that are missing or unfinished, where their trials are due
   void require_what_is_due() const {
-    const TrialTable& trials = joined_.finished.trials;
-    const std::uint64_t due = trials_due(joined_.study, trials);
+    // A study that does not keep all rows and stops on precision does not run in shards.
+    const std::uint64_t due = is_sketched() ? trials_ : trials_due(joined_.study, joined_.finished.trials);
     std::vector<std::uint64_t> missing;
     Objections objections;
     for (std::uint32_t number = 1; number <= files_.size(); ++number) {
       const StudyShare share{number, static_cast<std::uint32_t>(files_.size())};
-      const TrialRange range = share_of(trials_, block_size(joined_.study), share);
+      const TrialRange range = share_of(trials_, portion_, share);
       const std::uint64_t end = std::min(range.end, due);
       if (range.begin >= end) continue;
       const fs::path& file = files_[number - 1];
@@ -158,18 +164,25 @@ class Joining {
 
   /// How many trials of a range are there.
   [[nodiscard]] std::uint64_t rows_in(TrialRange range) const {
-    const std::vector<std::uint64_t>& index = joined_.finished.trials.index;
-    return static_cast<std::uint64_t>(std::lower_bound(index.begin(), index.end(), range.end) -
-                                      std::lower_bound(index.begin(), index.end(), range.begin));
+    auto next = std::lower_bound(present_.begin(), present_.end(), range.begin,
+                                 [](TrialRange present, std::uint64_t begin) { return present.end <= begin; });
+    std::uint64_t rows = 0;
+    for (; next != present_.end() && next->begin < range.end; ++next) {
+      rows += std::min(next->end, range.end) - std::max(next->begin, range.begin);
+    }
+    return rows;
   }
+
+  [[nodiscard]] bool is_sketched() const { return joined_.study.store != Store::all; }
 
   Objections objections_;
   std::optional<fs::path> first_;    // the first that was taken
   std::string spec_;                 // its spec_sha256
   std::vector<fs::path> files_;      // (shards) by number, less 1; empty where none was taken
   std::vector<TrialRange> present_;  // trials taken
-  std::vector<TrialOutcome> slots_;  // (trials) by index
+  std::vector<TrialOutcome> slots_;  // (trials) by index; empty where not all rows are kept
   std::uint64_t trials_{0};          // of the study
+  std::uint64_t portion_{1};         // that shards are cut by
   JoinedShares joined_;
 };
 

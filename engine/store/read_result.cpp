@@ -16,6 +16,7 @@
 #include "store/memory_file.hpp"
 #include "store/result_file.hpp"
 #include "store/seal.hpp"
+#include "store/sketch_columns.hpp"
 #include "store/trial_columns.hpp"
 #include "store/whole_file.hpp"
 #include "study/spec_json.hpp"
@@ -108,6 +109,18 @@ TrialTable read_trials(hid_t file, const Plan& plan) {
   return table;
 }
 
+/// @throws Problem where there is the row of a trial that the sketch does not have
+void require_sketched(const StudyResult& result) {
+  for (const TrialRange& rows : ranges_of(result.trials.index)) {
+    const auto& known = result.sketch->trials();
+    if (std::any_of(known.begin(), known.end(),
+                    [&](TrialRange range) { return range.begin <= rows.begin && rows.end <= range.end; })) {
+      continue;
+    }
+    throw Problem(fmt::format("/trials/index {} is of no trial in its sketch", rows.begin));
+  }
+}
+
 /// @param trials  those that could be audited
 Audit read_audit(hid_t file, const TrialTable& trials) {
   const hdf5::Handle group = hdf5::open_group(file, "audit");
@@ -152,8 +165,9 @@ std::optional<StudyShare> read_share(hid_t file, const StoredStudy& stored) {
   }
   if (stored.result.complete) throw Problem("it is a shard and called complete");
   const TrialRange range = trials_of(stored.study, share);
-  const std::vector<std::uint64_t>& index = stored.result.trials.index;
-  if (!index.empty() && (index.front() < range.begin || index.back() >= range.end)) {
+  const TrialTable& trials = stored.result.trials;
+  const auto ranges = stored.result.sketch ? stored.result.sketch->trials() : ranges_of(trials.index);
+  if (!ranges.empty() && (ranges.front().begin < range.begin || ranges.back().end > range.end)) {
     throw Problem(fmt::format("it has trials that are not in shard {}", share_text(share)));
   }
   return share;
@@ -182,12 +196,16 @@ StoredStudy read_bytes(std::span<const std::byte> bytes) {
   check_levels(stored.study, stored.result.trials);
   stored.has_metrics = hdf5::has_every_outcome(hdf5::open_group(file.id(), "trials").id());
   stored.parameters = read_parameters(file.id(), plan, stored.result.trials.index.size());
+  if (stored.study.store != Store::all) {
+    stored.result.sketch = hdf5::read_sketch(file.id(), plan.cells(), plan.trials());
+    require_sketched(stored.result);
+  }
   stored.result.audit = read_audit(file.id(), stored.result.trials);
   stored.result.complete = hdf5::read_flag_attribute(file.id(), "complete");
   if (stored.result.complete) {
-    const std::uint64_t due = trials_due(stored.study, stored.result.trials);
-    if (stored.result.trials.index.size() != due) {
-      throw Problem(fmt::format("it is called complete with {} of {} trials", stored.result.trials.index.size(), due));
+    const std::uint64_t due = trials_due(stored.study, stored.result);
+    if (stored.result.finished() != due) {
+      throw Problem(fmt::format("it is called complete with {} of {} trials", stored.result.finished(), due));
     }
   }
   stored.result.wall_s = hdf5::read_real_attribute(file.id(), "wall_s");

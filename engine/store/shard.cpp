@@ -2,16 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <numeric>
 #include <optional>
 
 #include "core/errors.hpp"
 #include "core/version.hpp"
-#include "store/attribute.hpp"
 #include "store/column.hpp"
-#include "store/layout.hpp"
 #include "store/memory_file.hpp"
+#include "store/part_header.hpp"
 #include "store/seal.hpp"
 #include "store/trial_columns.hpp"
 #include "store/whole_file.hpp"
@@ -26,11 +24,7 @@ hdf5::Bytes shard_bytes(const ShardOrigin& origin, std::uint64_t begin, std::spa
                         double wall_s) {
   const hdf5::Session session;
   hdf5::MemoryFile file;
-  hdf5::write_attribute(file.id(), "filetype", std::string(layout::shard_filetype));
-  hdf5::write_attribute(file.id(), "format_version", layout::format_version);
-  hdf5::write_attribute(file.id(), "engine_version", origin.engine_version);
-  hdf5::write_attribute(file.id(), "trials_sha256", origin.trials_sha256);
-  hdf5::write_attribute(file.id(), "wall_s", wall_s);
+  hdf5::write_part_header(file.id(), origin, wall_s);
   {
     const hdf5::Handle trials = hdf5::create_group(file.id(), "trials");
     std::vector<std::uint64_t> index(outcomes.size());
@@ -41,31 +35,11 @@ hdf5::Bytes shard_bytes(const ShardOrigin& origin, std::uint64_t begin, std::spa
   return file.close();
 }
 
-void require_origin(hid_t file, const ShardOrigin& origin) {
-  const std::string filetype = hdf5::read_text_attribute(file, "filetype");
-  if (filetype != layout::shard_filetype) {
-    throw Problem(fmt::format("its filetype is '{}' (it must be '{}')", filetype, layout::shard_filetype));
-  }
-  const std::uint32_t format = hdf5::read_integer_attribute(file, "format_version");
-  if (format != layout::format_version) {
-    throw Problem(fmt::format("it is of format {} (it must be {})", format, layout::format_version));
-  }
-  const std::string version = hdf5::read_text_attribute(file, "engine_version");
-  if (version != origin.engine_version) {
-    throw Problem(fmt::format("it is of engine version {} (it must be {})", version, origin.engine_version));
-  }
-  if (hdf5::read_text_attribute(file, "trials_sha256") != origin.trials_sha256) {
-    throw Problem("its trials are another study's");
-  }
-}
-
 Shard read_bytes(std::span<const std::byte> bytes, const ShardOrigin& origin, std::uint64_t trials) {
   const hdf5::Session session;
   const hdf5::Handle file = hdf5::open_in_memory(bytes);
-  require_origin(file.id(), origin);
   Shard shard;
-  shard.wall_s = hdf5::read_real_attribute(file.id(), "wall_s");
-  if (!std::isfinite(shard.wall_s) || shard.wall_s < 0.0) throw Problem("its wall_s is no duration");
+  shard.wall_s = hdf5::read_part_header(file.id(), origin);
   const hdf5::Handle group = hdf5::open_group(file.id(), "trials");
   const std::vector<std::uint64_t> index = hdf5::read_index(group.id(), trials);
   if (index.empty() || index.back() - index.front() != index.size() - 1) {

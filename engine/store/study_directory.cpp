@@ -8,6 +8,7 @@
 
 #include "core/errors.hpp"
 #include "core/version.hpp"
+#include "store/sketched_part.hpp"
 #include "store/study_files.hpp"
 #include "store/whole_file.hpp"
 #include "study/plan.hpp"
@@ -94,17 +95,25 @@ void StudyDirectory::begin(const Study& study, std::optional<StudyShare> share) 
   write_result(path_ / study_file, study, nothing);
 }
 
+FinishedTrials StudyDirectory::read_part(const fs::path& file) const {
+  if (study_->store != Store::all) return read_sketched_part(file, origin_, *study_);
+  Shard shard = read_shard(file, origin_, Plan(*study_).trials());
+  FinishedTrials part{{{}, std::move(shard.outcomes)}, shard.wall_s};
+  for (std::uint64_t i = 0; i < part.trials.outcomes.size(); ++i) part.trials.index.push_back(shard.begin + i);
+  return part;
+}
+
 Recovery StudyDirectory::recover() {
-  const std::uint64_t trials = Plan(study_.value()).trials();
+  // A rule sees trials in order, and no sketch tells what it would have seen of trials before a gap.
+  const bool in_order = study_.value().store != Store::all && study_->stop;
   Recovery recovery;
   for (const fs::path& file : files_called(shard_prefix)) {
     try {
-      Shard shard = read_shard(file, origin_, trials);
-      FinishedTrials of_shard{{{}, std::move(shard.outcomes)}, shard.wall_s};
-      for (std::uint64_t i = 0; i < of_shard.trials.outcomes.size(); ++i) {
-        of_shard.trials.index.push_back(shard.begin + i);
-      }
-      recovery.finished = joined(std::move(recovery.finished), std::move(of_shard));
+      FinishedTrials part = read_part(file);
+      const bool follows =
+          recovery.finished.count() == 0 || recovery.finished.ranges().back().end == part.ranges().front().begin;
+      if (in_order && !follows) continue;
+      recovery.finished = joined(std::move(recovery.finished), std::move(part));
     } catch (const RunFailure& damage) {
       recovery.set_aside.push_back(set_aside(file, damage.what()));
     }
@@ -127,6 +136,10 @@ SetAside StudyDirectory::set_aside(const fs::path& file, const std::string& reas
 
 void StudyDirectory::keep(std::uint64_t first, std::span<const TrialOutcome> outcomes, double wall_s) {
   write_shard(path_, origin_, first, outcomes, wall_s);
+}
+
+void StudyDirectory::keep(const FinishedTrials& piece) {
+  write_sketched_part(path_, origin_, piece);
 }
 
 void StudyDirectory::consolidate(const fs::path& path, const StudyResult& result) {
@@ -153,6 +166,10 @@ void ShardSink::take(std::uint64_t begin, std::span<const TrialOutcome> outcomes
   const Clock::time_point now = Clock::now();
   directory_.keep(begin, outcomes, std::chrono::duration<double>(now - last_).count());
   last_ = now;
+}
+
+void ShardSink::take_sketched(const FinishedTrials& piece) {
+  directory_.keep(piece);
 }
 
 }  // namespace steerstat

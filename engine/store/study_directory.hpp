@@ -61,6 +61,9 @@ class StudyDirectory {
   /// @throws RunFailure
   void keep(std::uint64_t first, std::span<const TrialOutcome> outcomes, double wall_s);
 
+  /// The same of a study that does not keep all rows. @param piece  with a sketch of at least one trial
+  void keep(const FinishedTrials& piece);
+
   /// Writes the result of the study begun, and deletes the shards only once it is on the disk.
   /// @param path  of the result, in this directory or elsewhere on its file system
   /// @throws RunFailure; the shards are then still there, unless it is they that could not be deleted
@@ -72,6 +75,7 @@ class StudyDirectory {
  private:
   [[nodiscard]] bool holds(const Study& study, std::optional<StudyShare> share) const;
   [[nodiscard]] std::vector<std::filesystem::path> files_called(const char* prefix) const;
+  [[nodiscard]] FinishedTrials read_part(const std::filesystem::path& file) const;
   SetAside set_aside(const std::filesystem::path& file, const std::string& reason) const;
   void remove_files(const char* prefix) const;
 
@@ -87,6 +91,7 @@ class ShardSink final : public OutcomeSink {
   /// @param directory  begun; must outlive this
   explicit ShardSink(StudyDirectory& directory) : directory_(directory) {}
   void take(std::uint64_t begin, std::span<const TrialOutcome> outcomes) override;
+  void take_sketched(const FinishedTrials& piece) override;
 
  private:
   using Clock = std::chrono::steady_clock;

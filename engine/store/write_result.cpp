@@ -11,6 +11,7 @@
 #include "store/memory_file.hpp"
 #include "store/result_file.hpp"
 #include "store/seal.hpp"
+#include "store/sketch_columns.hpp"
 #include "store/trial_columns.hpp"
 #include "store/whole_file.hpp"
 #include "study/spec_json.hpp"
@@ -114,6 +115,7 @@ hdf5::Bytes result_bytes(const Study& study, const StudyResult& result) {
   write_trials(file.id(), study, plan, result.trials);
   write_parameters(file.id(), plan, columns);
   write_audit(file.id(), result.audit);
+  if (study.store != Store::all) hdf5::write_sketch(file.id(), result.sketch.value_or(TrialSketch(plan.cells())));
   {
     const hdf5::Handle trajectories = hdf5::create_group(file.id(), "trajectories");
     for (const StudyResult::Retained& retained : result.trajectories) {

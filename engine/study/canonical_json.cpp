@@ -124,6 +124,7 @@ Canonical encode_study(const Study& study) {
   }
   if (study.stop) spec["stop"] = encode_stop(*study.stop);
   if (!study.integrator.metrics) spec["metrics"] = false;
+  if (study.store != Store::all) spec["store"] = store_names[static_cast<std::size_t>(study.store)];
   if (!study.gates.empty()) spec["gates"] = encode_gates(study.gates);
   if (study.baseline_test != BaselineTest{}) spec["baseline"] = encode_baseline_test(study.baseline_test);
   return spec;
@@ -140,8 +141,8 @@ std::string canonical_spec(const Study& study) {
 std::string canonical_population(const Study& study) {
   Canonical spec = encode_study(study);
   const Canonical convergence = spec["controller"]["convergence"];
-  for (const char* key :
-       {"name", "controller", "integrator", "retain", "audit", "stop", "intervals", "metrics", "gates", "baseline"}) {
+  for (const char* key : {"name", "controller", "integrator", "retain", "audit", "stop", "intervals", "metrics",
+                          "gates", "baseline", "store"}) {
     spec.erase(key);
   }
   spec["controller"]["convergence"] = convergence;  // what counts as success

@@ -12,6 +12,12 @@ inline constexpr std::uint64_t most_cells = 100'000;
 /// At most this many draws a cell, and trials in all.
 inline constexpr std::uint64_t most_trials = 1'000'000'000;
 
+/// A study that does not keep all rows has at most this many cells: a sketch takes up to a megabyte a cell.
+inline constexpr std::uint64_t most_sketched_cells = 1'000;
+
+/// And audits at most this many trials, whose rows it keeps.
+inline constexpr std::uint64_t most_sketched_audit = 10'000;
+
 /// At most this many explicit trials.
 inline constexpr std::size_t most_explicit_trials = 100'000;
 

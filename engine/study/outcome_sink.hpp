@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <span>
+#include <stdexcept>
 
+#include "study/trial_table.hpp"
 #include "trial/trial.hpp"
 
 namespace steerstat {
@@ -34,6 +36,13 @@ class OutcomeSink {
   /// @param begin     index of the first
   /// @param outcomes  (trials) of consecutive indices, at least one
   virtual void take(std::uint64_t begin, std::span<const TrialOutcome> outcomes) = 0;
+
+  /// Takes finished trials of a study that does not keep all rows, instead: a sketch of them and the rows that are
+  /// kept. Each trial once, in rising order of index. What it throws ends the run, likewise. A sink that takes rows
+  /// alone need not have it.
+  virtual void take_sketched(const FinishedTrials& /*piece*/) {
+    throw std::logic_error("this sink takes the rows of all trials");
+  }
 };
 
 }  // namespace steerstat

@@ -63,6 +63,10 @@ void PrecisionWatch::add(const TrialOutcome& outcome) {
       cell.samples[i].push_back(value);
   }
   ++trials_;
+  look_where_due();
+}
+
+void PrecisionWatch::look_where_due() {
   if (trials_ != next_look_ * cells_.size()) return;
   ++looks_;
   if (all_reached()) {

@@ -43,6 +43,23 @@ class PrecisionWatch {
   /// Takes the outcome of the next trial, and looks where a look is due. Nothing once stopped.
   void add(const TrialOutcome& outcome);
 
+  /// Takes all trials up to a count, which have not stopped the rule before the last of them, by how they ended. A look
+  /// that is due after the last is made.
+  ///
+  /// @param cells   (cells) each with its `outcomes`, by Status
+  /// @param trials  whole draws
+  /// @pre none was taken before, and the rule asks for no quantile
+  template <class Cells>
+  void skip_to(const Cells& cells, std::uint64_t trials) {
+    for (std::size_t cell = 0; cell < cells_.size(); ++cell) cells_[cell].outcomes = cells[cell].outcomes;
+    trials_ = trials;
+    while (next_look_ * cells_.size() < trials_ && next_look_ < most_draws_) {
+      ++looks_;
+      next_look_ = std::min(next_look_ + rule_.check_every, most_draws_);
+    }
+    look_where_due();
+  }
+
   [[nodiscard]] bool stopped() const { return reason_.has_value(); }
 
   /// Where the study stands with the trials taken so far. Not const: finding an order statistic reorders a sample.
@@ -56,6 +73,7 @@ class PrecisionWatch {
 
   [[nodiscard]] GoalProgress progress_in(std::uint64_t cell, const PrecisionGoal& goal);
   [[nodiscard]] bool all_reached();
+  void look_where_due();
 
   const StopRule rule_;
   const std::uint64_t most_draws_;

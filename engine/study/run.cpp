@@ -23,6 +23,7 @@
 #include "study/block_queue.hpp"
 #include "study/finished_prefix.hpp"
 #include "study/handover.hpp"
+#include "study/sketched_run.hpp"
 #include "study/trial_range.hpp"
 
 namespace steerstat {
@@ -67,6 +68,7 @@ class RangeSink final : public OutcomeSink {
   void take(std::uint64_t begin, std::span<const TrialOutcome> outcomes) override {
     sink_.take(begin_ + begin, outcomes);
   }
+  void take_sketched(const FinishedTrials& piece) override { sink_.take_sketched(piece); }
 
  private:
   OutcomeSink& sink_;
@@ -186,21 +188,23 @@ class ProgressReports {
 };
 
 /// The first `first` of all rows and the first `failed` that did not converge, ascending, each once.
-std::vector<std::uint64_t> rows_to_retain(const Retention& retention, const TrialTable& trials) {
+/// @param all_rows  whether the table has the rows of all finished trials
+std::vector<std::uint64_t> rows_to_retain(const Retention& retention, const TrialTable& trials, bool all_rows) {
   std::vector<std::uint64_t> rows;
   std::uint64_t failures = 0;
   for (std::uint64_t row = 0; row < trials.outcomes.size(); ++row) {
     const bool failed = trials.outcomes[row].status != Status::converged;
-    if (row < retention.first || (failed && failures < retention.failed)) rows.push_back(row);
+    const bool first = (all_rows ? row : trials.index[row]) < retention.first;
+    if (first || (failed && failures < retention.failed)) rows.push_back(row);
     failures += failed ? 1 : 0;
-    if (row >= retention.first && failures >= retention.failed) break;
+    if (!first && failures >= retention.failed) break;
   }
   return rows;
 }
 
 std::vector<StudyResult::Retained> retained_trajectories(const Study& study, const Plan& plan, const TrialTable& trials,
                                                          Turnstile* turns) {
-  const std::vector<std::uint64_t> rows = rows_to_retain(study.retention, trials);
+  const std::vector<std::uint64_t> rows = rows_to_retain(study.retention, trials, study.store == Store::all);
   std::vector<StudyResult::Retained> retained(rows.size());
   tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
     const Turnstile::Turn turn(turns);
@@ -213,18 +217,25 @@ std::vector<StudyResult::Retained> retained_trajectories(const Study& study, con
   return retained;
 }
 
+/// The indices of trials to audit.
+std::vector<std::uint64_t> trials_to_audit(const Study& study, const TrialTable& trials) {
+  std::vector<std::uint64_t> indices = rows_to_audit(study.sampling.seed, study.audited_trials, trials.index.size());
+  for (std::uint64_t& row : indices) row = trials.index[row];
+  return indices;
+}
+
 /// Computes trials of the run again with the reference integrator. After a stop request no further one is begun.
-Audit audit_of(const Study& study, const Plan& plan, const TrialTable& trials, const RunOptions& options) {
+Audit audit_of(const Study& study, const Plan& plan, std::span<const std::uint64_t> indices,
+               const RunOptions& options) {
   const IntegratorChoice auditor = auditor_of(study.integrator);
-  const std::vector<std::uint64_t> rows = rows_to_audit(study.sampling.seed, study.audited_trials, trials.index.size());
-  std::vector<std::optional<AuditedTrial>> finished(rows.size());
+  std::vector<std::optional<AuditedTrial>> finished(indices.size());
   const auto audit_one = [&](std::size_t i) {
     const Turnstile::Turn turn(options.turns);
     if (options.stop.stop_requested()) return;
-    const std::uint64_t index = trials.index[rows[i]];
+    const std::uint64_t index = indices[i];
     finished[i] = audited(index, make_runner(auditor)->run(plan.parameters(index)));
   };
-  tbb::parallel_for(std::size_t{0}, rows.size(), audit_one, tbb::simple_partitioner{});
+  tbb::parallel_for(std::size_t{0}, indices.size(), audit_one, tbb::simple_partitioner{});
   Audit audit{auditor.tolerance, {}};
   for (const std::optional<AuditedTrial>& trial : finished) {
     if (trial) audit.trials.push_back(*trial);
@@ -307,6 +318,23 @@ void cut_where_due(const Study& study, std::uint64_t finished, StudyResult& resu
   result.trials.outcomes.resize(due);
 }
 
+/// What a run of a study that does not keep all rows stands on.
+SketchedRunMeans sketched_run_means(const Study& study, const Plan& plan, unsigned threads, InstructionSet simd) {
+  SketchedRunMeans means;
+  means.run_piece = [&study, &plan, threads, simd](TrialRange piece, const RunOptions& options) {
+    StudyResult result;
+    result.threads = threads;
+    result.simd = simd;
+    run_trials(study, {plan, piece}, options, {}, std::nullopt, result);
+    return result;
+  };
+  means.for_each = [threads](std::size_t count, const std::function<void(std::size_t)>& task) {
+    tbb::task_arena arena(static_cast<int>(threads));
+    arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, task, tbb::simple_partitioner{}); });
+  };
+  return means;
+}
+
 /// A result to be filled in by as many workers as were asked for, but no more than there are blocks.
 StudyResult begun(const Study& study, const RunOptions& options, std::uint64_t trials) {
   const std::uint64_t asked = options.threads == 0 ? default_threads() : options.threads;
@@ -347,6 +375,26 @@ std::uint64_t trials_due(const Study& study, const TrialTable& trials) {
   return report && report->reason ? report->trials : Plan(study).trials();
 }
 
+std::optional<StopReport> watched(const Study& study, const TrialSketch& sketch) {
+  if (!study.stop) return std::nullopt;
+  PrecisionWatch watch = watch_of(study, Plan(study));
+  watch.skip_to(sketch.cells(), sketch.count());
+  return watch.report();
+}
+
+std::optional<StopReport> watched(const Study& study, const StudyResult& result) {
+  return result.sketch ? watched(study, *result.sketch) : watched(study, result.trials);
+}
+
+std::uint64_t trials_due(const Study& study, const StudyResult& result) {
+  const std::optional<StopReport> report = watched(study, result);
+  return report && report->reason ? report->trials : Plan(study).trials();
+}
+
+std::uint64_t portion_size(const Study& study) {
+  return block_size(study) * (study.store == Store::all ? 1 : Plan(study).cells());
+}
+
 std::uint64_t block_size(const Study& study) {
   return study.integrator.method == IntegratorChoice::Method::cvode ? 16 : 128;
 }
@@ -368,30 +416,49 @@ StudyResult run_study(const Study& study, const RunOptions& options, FinishedTri
   const Plan plan(study);
   StudyResult result = begun(study, options, plan.trials());
   const AllowedWorkers allow(options, result.threads);
-  std::optional<PrecisionWatch> watch;
-  if (study.stop) watch.emplace(watch_of(study, plan));
-  const PlannedTrials planned{plan, {0, plan.trials()}};
-  cut_where_due(study, run_trials(study, planned, options, std::move(earlier), std::move(watch), result), result);
+  const TrialRange every_trial{0, plan.trials()};
+  const SketchedRunMeans means = sketched_run_means(study, plan, result.threads, options.simd);
+  if (study.store != Store::all) {
+    result.complete = run_sketched(study, plan, every_trial, options, std::move(earlier), means, result);
+  } else {
+    std::optional<PrecisionWatch> watch;
+    if (study.stop) watch.emplace(watch_of(study, plan));
+    const PlannedTrials planned{plan, every_trial};
+    cut_where_due(study, run_trials(study, planned, options, std::move(earlier), std::move(watch), result), result);
+  }
+  const std::vector<std::uint64_t> to_audit = study.store == Store::all
+                                                  ? trials_to_audit(study, result.trials)
+                                                  : complete_rows(study, plan, options, means.for_each, result);
   // Of a few lockstep trials, which fill one block, the audit still has work for every thread.
   const unsigned cores = default_threads();
   const unsigned asked = options.threads == 0 ? cores : options.threads;
   tbb::task_arena wide_arena(static_cast<int>(std::min(asked, std::max(result.threads, cores))));
-  const Showing showing(result.complete ? options.sink : nullptr, result.trials.outcomes);
+  const bool shows = result.complete && study.store == Store::all;
+  const Showing showing(shows ? options.sink : nullptr, result.trials.outcomes);
   wide_arena.execute([&] {
     result.trajectories = retained_trajectories(study, plan, result.trials, options.turns);
-    result.audit = audit_of(study, plan, result.trials, options);
+    result.audit = audit_of(study, plan, to_audit, options);
   });
   return result;
 }
 
 StudyResult run_range(const Study& study, TrialRange range, const RunOptions& options, FinishedTrials earlier) {
   const Plan plan(study);
-  if (range.begin > range.end || range.end > plan.trials() || range.begin % block_size(study) != 0) {
+  const std::uint64_t unit = study.store == Store::all ? block_size(study) : plan.cells();
+  if (range.begin > range.end || range.end > plan.trials() || range.begin % unit != 0) {
     throw std::invalid_argument("run_range: the range is not one of whole blocks of the study");
   }
   const PlannedTrials planned{plan, range};
   StudyResult result = begun(study, options, planned.count());
   const AllowedWorkers allow(options, result.threads);
+  if (study.store != Store::all) {
+    Study unstopped = study;
+    unstopped.stop.reset();
+    run_sketched(unstopped, plan, range, options, std::move(earlier),
+                 sketched_run_means(study, plan, result.threads, options.simd), result);
+    result.audit.tolerance = auditor_of(study.integrator).tolerance;
+    return result;
+  }
   std::optional<RangeSink> sink;
   if (options.sink != nullptr) sink.emplace(*options.sink, range.begin);
   RunOptions of_range = options;

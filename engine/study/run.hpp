@@ -48,7 +48,7 @@ struct RunOptions {
 /// every block it had begun, so which trials are kept never depends on how they ended. A study that stopped on
 /// precision keeps exactly the trials up to the look that stopped it.
 struct StudyResult {
-  TrialTable trials;
+  TrialTable trials;     ///< as the study stores
   bool complete{false};  ///< every trial is there, or every one up to where the study's rule stopped it
   struct Retained {
     std::uint64_t index;
@@ -60,6 +60,10 @@ struct StudyResult {
   unsigned threads{0};  ///< workers that shared the trials: as asked, but never more than the study has blocks
   std::optional<InstructionSet> simd;  ///< what lockstep ran on; nothing with another integrator
   std::optional<StudyShare> share;     ///< where these are a share of the study; it is never complete then
+  std::optional<TrialSketch> sketch;   ///< of all finished trials, where the study does not keep all of their rows
+
+  /// How many trials have finished, whether their rows are kept or not.
+  [[nodiscard]] std::uint64_t finished() const { return sketch ? sketch->count() : trials.index.size(); }
 };
 
 /// Trials a worker claims at a time: several times what the lanes of lockstep hold, which refill across blocks; few
@@ -71,9 +75,20 @@ std::uint64_t block_size(const Study& study);
 /// rule.
 std::optional<StopReport> watched(const Study& study, const TrialTable& trials);
 
+/// The same of a study that does not keep all rows. @param sketch  of all trials up to some index
+std::optional<StopReport> watched(const Study& study, const TrialSketch& sketch);
+
+/// Whichever of the two there is of a result.
+std::optional<StopReport> watched(const Study& study, const StudyResult& result);
+
 /// How many trials a finished run of the study leaves: all, or as many as its rule let it take before it stopped.
 /// @param trials  those that it left
 std::uint64_t trials_due(const Study& study, const TrialTable& trials);
+std::uint64_t trials_due(const Study& study, const StudyResult& result);
+
+/// What the trials of a study are dealt out in, to machines and processes: whole blocks, and whole draws where the
+/// study does not keep all rows.
+std::uint64_t portion_size(const Study& study);
 
 /// One a core that this process may use.
 unsigned default_threads();
@@ -104,7 +119,7 @@ StudyResult run_study(const Study& study, const RunOptions& options, FinishedTri
 /// Runs consecutive trials of a study, whatever its rule says, and audits none: of a study that runs in several places.
 /// What it takes grows with the range and not with the study. Otherwise as run_study(); the sink is shown no slots.
 ///
-/// @param range    begins where a block begins (block_size())
+/// @param range    begins where a block begins (block_size()), or a draw where the study does not keep all rows
 /// @param earlier  those outside of the range are dropped
 /// @return not complete; the range has finished where every trial of it is there
 /// @throws std::invalid_argument for another range

@@ -43,7 +43,7 @@ TrialRange share_of(std::uint64_t trials, std::uint64_t block, const StudyShare&
 }
 
 TrialRange trials_of(const Study& study, const StudyShare& share) {
-  return share_of(Plan(study).trials(), block_size(study), share);
+  return share_of(Plan(study).trials(), portion_size(study), share);
 }
 
 }  // namespace steerstat

@@ -33,7 +33,7 @@ std::string share_text(const StudyShare& share);
 /// @param block  trials a block, > 0
 TrialRange share_of(std::uint64_t trials, std::uint64_t block, const StudyShare& share);
 
-/// The same of a study.
+/// The same of a study, in portions of portion_size().
 TrialRange trials_of(const Study& study, const StudyShare& share);
 
 }  // namespace steerstat

@@ -19,6 +19,7 @@
 #include "study/rules.hpp"
 #include "study/sampling_json.hpp"
 #include "study/stop_json.hpp"
+#include "study/store_rules.hpp"
 
 namespace steerstat {
 namespace {
@@ -71,6 +72,9 @@ class Decoder {
     }
     if (const auto stop = root_.find("stop")) decode_stop_rule(*stop);
     if (const auto retain = root_.find("retain")) decode_retention(*retain);
+    if (const auto store = root_.find("store")) {
+      if (const auto position = store->one_of(store_names)) study_.store = static_cast<Store>(*position);
+    }
     if (const auto audit = root_.find("audit")) decode_audit(*audit);
     const bool stops = root_.find("stop").has_value();
     study_.intervals = default_intervals(stops);
@@ -80,14 +84,16 @@ class Decoder {
     }
     if (const auto baseline = root_.find("baseline")) study_.baseline_test = decode_baseline_test(*baseline);
     check_rules(study_, mistaken_, errors_);
+    check_store(study_, mistaken_, errors_);
     return study_;
   }
 
  private:
   void refuse_unknown_keys() {
-    static constexpr std::array<std::string_view, 18> known{
-        "name",       "nominal",  "plant", "initial_state", "goal",  "controller", "actuator", "sensor", "horizon",
-        "integrator", "sampling", "stop",  "retain",        "audit", "intervals",  "metrics",  "gates",  "baseline"};
+    static constexpr std::array<std::string_view, 19> known{
+        "name",      "nominal", "plant",      "initial_state", "goal", "controller", "actuator",
+        "sensor",    "horizon", "integrator", "sampling",      "stop", "retain",     "audit",
+        "intervals", "metrics", "gates",      "baseline",      "store"};
     static constexpr std::array<std::string_view, 1> spoken_for{"kind"};
     root_.refuse_unknown_keys(known, spoken_for);
   }

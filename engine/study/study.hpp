@@ -115,6 +115,15 @@ struct Retention {
   friend bool operator==(const Retention&, const Retention&) = default;
 };
 
+/// Of which trials a study keeps the rows. Statistics are of all trials in any case: of a study that does not keep all
+/// rows, from sketches of them (TrialSketch).
+enum class Store : std::uint8_t {
+  all,
+  failed,   ///< those that did not converge
+  summary,  ///< none
+};
+inline constexpr std::array<std::string_view, 3> store_names{"all", "failed", "summary"};
+
 /// Which intervals the summary gives.
 struct IntervalChoice {
   ProportionMethod method{ProportionMethod::wilson};  ///< of the success rate
@@ -139,6 +148,7 @@ struct Study {
   IntegratorChoice integrator{};
   Sampling sampling{};
   Retention retention{};
+  Store store{Store::all};         ///< rows are also kept of trials that are audited or retained
   std::optional<StopRule> stop{};  ///< none: every trial runs
   IntervalChoice intervals{};
   std::uint64_t audited_trials{16};  ///< computed again by the reference integrator; all where there are fewer

@@ -41,9 +41,23 @@ FinishedTrials interleaved(const FinishedTrials& a, const FinishedTrials& b) {
   return both;
 }
 
+FinishedTrials sketches_joined(FinishedTrials a, FinishedTrials b) {
+  if (!a.sketch || !b.sketch) return a.sketch ? a : b;
+  if (a.count() < b.count()) std::swap(a, b);
+  if (includes(*a.sketch, *b.sketch) || !apart(*a.sketch, *b.sketch)) return a;
+  TrialSketch sketch = *std::exchange(a.sketch, {});
+  sketch.add(*std::exchange(b.sketch, {}));
+  const double wall_s = a.wall_s + b.wall_s;
+  FinishedTrials both = joined(std::move(a), std::move(b));
+  both.wall_s = wall_s;
+  both.sketch = std::move(sketch);
+  return both;
+}
+
 }  // namespace
 
 FinishedTrials joined(FinishedTrials a, FinishedTrials b) {
+  if (a.sketch || b.sketch) return sketches_joined(std::move(a), std::move(b));
   if (b.trials.index.empty()) return a;
   if (a.trials.index.empty()) return b;
   if (a.trials.index.back() < b.trials.index.front()) return appended(std::move(a), b);

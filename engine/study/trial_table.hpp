@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "study/trial_range.hpp"
+#include "study/trial_sketch.hpp"
 #include "trial/trial.hpp"
 
 namespace steerstat {
@@ -18,10 +20,18 @@ struct TrialTable {
 /// What runs of a study finished before this one.
 struct FinishedTrials {
   TrialTable trials;
-  double wall_s{0.0};  ///< [s] they took
+  double wall_s{0.0};                   ///< [s] they took
+  std::optional<TrialSketch> sketch{};  ///< of all finished trials, where the study does not keep all of their rows
+
+  /// How many have finished, whether their rows are kept or not.
+  [[nodiscard]] std::uint64_t count() const { return sketch ? sketch->count() : trials.index.size(); }
+
+  /// Which, ascending.
+  [[nodiscard]] std::vector<TrialRange> ranges() const { return sketch ? sketch->trials() : ranges_of(trials.index); }
 };
 
-/// Joins what two runs of a study finished: the trials of either, each once.
+/// Joins what two runs of a study finished: the trials of either, each once. Sketches that share some of their trials,
+/// but neither all of the other's, do not add up: then those of the one with more, and of the other nothing.
 FinishedTrials joined(FinishedTrials a, FinishedTrials b);
 
 /// The trials of `range` alone, with indices counted from its begin. They took what all took.

@@ -33,7 +33,7 @@ Narrowing narrowing_of(const ViewedStudy& viewed, std::size_t points) {
   Narrowing narrowing;
   narrowing.intervals = viewed.study.intervals;
   for (std::size_t row = 0; row < prefix; ++row) narrowing.of += plan.is_independent(row) ? 1U : 0U;
-  const bool by_draw = Independence(viewed.study, plan, trials).unit(false) == IntervalUnit::draw;
+  const bool by_draw = Independence(viewed.study, plan, viewed.result).unit(false) == IntervalUnit::draw;
   const std::vector<std::uint64_t> wanted = log_spaced(narrowing.of, points);
   auto next = wanted.begin();
   std::uint64_t counted = 0;

@@ -90,6 +90,26 @@ TEST_F(RunOnRanks, KeepsEveryTrialInTheDirectoryWhoeverWritesIt) {
   }
 }
 
+TEST_F(RunOnRanks, OfAStudyThatKeepsNoRowsGivesTheSketchOfOneProcess) {
+  const Study study = study_of(4000, R"(, "store": "summary")");
+  const StudyResult alone = run_study(study, {});
+  ASSERT_TRUE(alone.sketch);
+  const auto expect_sketch = [&](RankedRun together) {
+    const StudyResult result = completed(study, {}, std::move(together));
+    EXPECT_TRUE(result.sketch == alone.sketch);
+    expect_same(result, alone);
+  };
+  for (const int ranks : {1, 2, 4}) expect_sketch(run(ranks, study));
+  for (const bool gather : {false, true}) {
+    StudyDirectory directory(path_);
+    directory.begin(study);
+    const FinishedTrials begun{{}, 0.0, run_range(study, {100, 1100}, {}).sketch};
+    expect_sketch(run(2, study, begun, &directory, gather));
+    EXPECT_EQ(directory.recover().finished.count(), 3000U);
+    directory.remove();
+  }
+}
+
 TEST_F(RunOnRanks, RunsOnlyWhatIsMissing) {
   const Study study = study_of(1500);
   const StudyResult alone = run_study(study, {});
