@@ -2,14 +2,17 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "api/api.hpp"
 #include "commands.hpp"
+#include "core/errors.hpp"
 #include "hardening/http_server.hpp"
 #include "hardening/token.hpp"
 #include "interruption.hpp"
@@ -46,6 +49,7 @@ struct Request {
   unsigned threads{0};
   std::optional<std::string> token_file;
   std::vector<std::string> allowed_hosts;
+  std::string launcher;
 };
 
 DoorOptions door_options(const Request& request) {
@@ -89,11 +93,22 @@ std::vector<Asset> page_assets() {
           {"/page.js", "text/javascript; charset=utf-8", page.script}};
 }
 
+/// The command's words, cut at spaces.
+std::optional<Launcher> launcher_of(const Request& request) {
+  if (request.launcher.empty()) return std::nullopt;
+  Launcher launcher;
+  std::istringstream words(request.launcher);
+  for (std::string word; words >> word;) launcher.prefix.push_back(word);
+  if (launcher.prefix.empty()) throw BadUsage("--launcher: there is no command in it; name one, such as \"srun -N4\"");
+  launcher.program = std::filesystem::read_symlink("/proc/self/exe").string();
+  return launcher;
+}
+
 ExitCode run(const Request& request) {
   HttpServer server(door_options(request));  // first: a port in use is told before any study goes on
   const Interruption interruption;
   const auto tell_line = [](const std::string& line) { tell(line); };
-  StudyService service(request.data, request.threads, {}, tell_line);
+  StudyService service(request.data, request.threads, {}, tell_line, launcher_of(request));
   ApiOptions options;
   options.assets = page_assets();
   options.door = [&server] { return server.counters(); };
@@ -127,6 +142,10 @@ void add_serve(CLI::App& program, ExitCode& exit_code) {
       ->add_option("--allow-host", request->allowed_hosts,
                    "Answer to this name too, such as a proxy's; may be given several times")
       ->type_name("NAME");
+  command
+      ->add_option("--launcher", request->launcher,
+                   "Run each study as a program of its own, COMMAND steerstat run ..., such as \"srun -N4\"")
+      ->type_name("COMMAND");
   command->footer(epilogue);
   command->callback([request, &exit_code] { exit_code = run(*request); });
 }

@@ -11,6 +11,7 @@
 #include "core/errors.hpp"
 #include "report/readable.hpp"
 #include "report/summary.hpp"
+#include "service/launched_run.hpp"
 #include "service/live_outcomes.hpp"
 #include "service/recent_rate.hpp"
 #include "store/free_space.hpp"
@@ -90,7 +91,11 @@ Ending run_to_end(const KeptRun& run) {
   StudyDirectory directory(entry.home.path());
   directory.begin(study);
   std::optional<StudyResult> found = entry.home.whole_result(study);
-  if (!found || !is_whole(study, *found)) {
+  if (run.launcher && (!found || !found->complete)) {
+    if (!run_launched(run, *run.launcher)) return {false, entry.home.read(study, entry.origin).result.finished(), {}};
+    found = entry.home.whole_result(study);
+    entry.home.forget_launched();
+  } else if (!found || !is_whole(study, *found)) {
     found = run_what_is_left(run, directory, entry.home.recover(directory, study, run.tell));
     if (!is_whole(study, *found)) return {false, found->trials.index.size(), {}};
     const auto kept = std::make_shared<const KeptStudy>(KeptStudy{std::move(*found), entry.origin.engine_version});

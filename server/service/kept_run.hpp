@@ -3,9 +3,11 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "service/catalogue.hpp"
+#include "service/launcher.hpp"
 #include "service/service_limits.hpp"
 #include "study/turnstile.hpp"
 
@@ -20,6 +22,7 @@ struct KeptRun {
   const ServiceLimits& limits;
   const std::function<void(const std::string&)>& tell;
   std::atomic<std::uint64_t>& trials_done;  ///< gets the trials it finishes
+  const std::optional<Launcher>& launcher;  ///< runs the study elsewhere; nothing: it runs in this process
 };
 
 /// Runs what is left of a study, keeps its trials, result and summary in its directory, and notes there and in its

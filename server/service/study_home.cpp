@@ -139,6 +139,18 @@ std::uint64_t StudyHome::trials_in_shards() const {
   return trials;
 }
 
+std::uint64_t StudyHome::launched_trials() const noexcept {
+  try {
+    std::uint64_t trials = 0;
+    for (const fs::path& file : files_in(launched_parts(), {shard_prefix})) {
+      trials += trials_of(file.filename().string());
+    }
+    return trials;
+  } catch (const std::exception&) {
+    return 0;
+  }
+}
+
 KeptStudy StudyHome::read(const Study& study, const ShardOrigin& origin) const {
   if (is_there(result())) {
     StoredStudy stored = read_result(result());
@@ -154,11 +166,28 @@ KeptStudy StudyHome::read(const Study& study, const ShardOrigin& origin) const {
     } catch (const RunFailure&) {  // its next run tells, and runs those trials again
     }
   }
+  if (is_there(launched_parts()) || is_there(launched_result())) {
+    all = joined(std::move(all), launched_finished(study, origin));
+  }
   KeptStudy kept;
   kept.result.trials = std::move(all.trials);
   kept.result.wall_s = all.wall_s;
   kept.engine_version = origin.engine_version;
   return kept;
+}
+
+/// What is run through a launcher, at any moment of its life: what is being replaced meanwhile is passed over.
+FinishedTrials StudyHome::launched_finished(const Study& study, const ShardOrigin& origin) const {
+  FinishedTrials all;
+  try {
+    if (is_there(launched_result())) all = trials_for(study, origin.engine_version, launched_result());
+    const std::uint64_t trials = Plan(study).trials();
+    for (const fs::path& file : files_in(launched_parts(), {shard_prefix})) {
+      all = joined(std::move(all), finished(read_shard(file, origin, trials)));
+    }
+  } catch (const RunFailure&) {
+  }
+  return all;
 }
 
 FinishedTrials StudyHome::recover(StudyDirectory& directory, const Study& study,
@@ -188,6 +217,10 @@ std::optional<StudyResult> StudyHome::whole_result(const Study& study) const {
 
 void StudyHome::forget_earlier() const {
   for (const fs::path& file : files_in(path_, {earlier_prefix})) remove_file(file);
+}
+
+void StudyHome::forget_launched() const {
+  for (const fs::path& file : {launched_spec(), launched_log(), launched_note()}) remove_file(file);
 }
 
 void StudyHome::forget_partial_result() const {

@@ -34,6 +34,12 @@ class StudyHome {
   /// The finished trials of a study that was cancelled or failed, for who asks for them; may be deleted at any time.
   [[nodiscard]] std::filesystem::path partial_result() const { return path_ / "partial.h5"; }
   [[nodiscard]] std::filesystem::path summary() const { return path_ / "summary.json"; }
+  /// Of a study that is run through a launcher: what it is to run, where it writes, what it says and which it is.
+  [[nodiscard]] std::filesystem::path launched_spec() const { return path_ / "launched.json"; }
+  [[nodiscard]] std::filesystem::path launched_result() const { return path_ / "launched.h5"; }
+  [[nodiscard]] std::filesystem::path launched_parts() const { return path_ / "launched.h5.parts"; }
+  [[nodiscard]] std::filesystem::path launched_log() const { return path_ / "launched.log"; }
+  [[nodiscard]] std::filesystem::path launched_note() const { return path_ / "launched.process"; }
 
   /// Makes the directory. On return it is on the disk; where it throws, nothing is left that passes for a study.
   ///
@@ -50,6 +56,9 @@ class StudyHome {
   /// How many trials the names of its shards tell of. @throws RunFailure
   [[nodiscard]] std::uint64_t trials_in_shards() const;
 
+  /// The same of what is run through a launcher. Throws nothing: it is another process's directory, which may go.
+  [[nodiscard]] std::uint64_t launched_trials() const noexcept;
+
   /// Every finished trial there is, read without changing anything; what is damaged is passed over.
   /// @param origin  of its shards
   [[nodiscard]] KeptStudy read(const Study& study, const ShardOrigin& origin) const;
@@ -65,6 +74,7 @@ class StudyHome {
   /// Deletes what a result has made superfluous: links to earlier studies, a partial result. @throws RunFailure
   void forget_earlier() const;
   void forget_partial_result() const;
+  void forget_launched() const;
 
   /// Deletes files that a process was writing when it died. @throws RunFailure
   void clear_temporaries() const;
@@ -81,6 +91,7 @@ class StudyHome {
   static constexpr const char* damaged_prefix = "damaged-";
 
  private:
+  [[nodiscard]] FinishedTrials launched_finished(const Study& study, const ShardOrigin& origin) const;
   void link_from(const StudyHome& earlier) const;
 
   std::filesystem::path path_;

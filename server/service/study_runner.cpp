@@ -22,12 +22,14 @@ std::uint64_t machine_memory() {
 
 }  // namespace
 
-StudyRunner::StudyRunner(Catalogue& catalogue, unsigned threads, const ServiceLimits& limits, Tell tell)
+StudyRunner::StudyRunner(Catalogue& catalogue, unsigned threads, const ServiceLimits& limits, Tell tell,
+                         std::optional<Launcher> launcher)
     : catalogue_(catalogue),
       threads_(threads),
       limits_(limits),
       memory_(limits.memory > 0 ? limits.memory : machine_memory() / 2),
       tell_(std::move(tell)),
+      launcher_(std::move(launcher)),
       turns_(threads),
       workers_(static_cast<unsigned>(threads * std::max<std::size_t>(limits.running_studies, 1))) {}
 
@@ -167,7 +169,8 @@ void StudyRunner::keep_records(std::unique_lock<std::mutex>& lock) {
 }
 
 void StudyRunner::run(Running& running) {
-  const bool is_kept = run_and_keep({catalogue_, *running.entry, threads_, turns_, limits_, tell_, trials_done_});
+  const bool is_kept =
+      run_and_keep({catalogue_, *running.entry, threads_, turns_, limits_, tell_, trials_done_, launcher_});
   const std::lock_guard lock(mutex_);
   if (!is_kept) unkept_.push_back(running.entry);
   running.has_ended = true;

@@ -6,11 +6,13 @@
 #include <functional>
 #include <list>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "service/catalogue.hpp"
+#include "service/launcher.hpp"
 #include "service/service_limits.hpp"
 #include "study/run.hpp"
 #include "study/turnstile.hpp"
@@ -25,7 +27,9 @@ class StudyRunner {
 
   /// @param catalogue  must outlive this
   /// @param threads    workers that may work at once, > 0
-  StudyRunner(Catalogue& catalogue, unsigned threads, const ServiceLimits& limits, Tell tell);
+  /// @param launcher   runs the studies elsewhere; nothing: they run in this process
+  StudyRunner(Catalogue& catalogue, unsigned threads, const ServiceLimits& limits, Tell tell,
+              std::optional<Launcher> launcher);
   ~StudyRunner();
   StudyRunner(const StudyRunner&) = delete;
   StudyRunner& operator=(const StudyRunner&) = delete;
@@ -70,6 +74,7 @@ class StudyRunner {
   const ServiceLimits limits_;
   const std::uint64_t memory_;
   const Tell tell_;
+  const std::optional<Launcher> launcher_;
   Turnstile turns_;
   const SharedWorkers workers_;
   std::atomic<std::uint64_t> trials_done_{0};

@@ -35,6 +35,11 @@ Tell in_turn(Tell tell) {
 /// What of a study is too much. @param memory  [bytes] that studies may need
 std::vector<SpecError> excesses(const Study& study, const ServiceLimits& limits, std::uint64_t memory) {
   std::vector<SpecError> errors;
+  if (study.store != Store::all) {
+    errors.push_back({"/store", fmt::format("\"{}\" (the service answers for every trial and keeps all of their rows); "
+                                            "remove it, or run the study with steerstat run",
+                                            store_names[static_cast<std::size_t>(study.store)])});
+  }
   const Plan plan(study);
   if (seeks_failures(study.sampling.method)) {
     errors.push_back(
@@ -69,12 +74,13 @@ std::vector<SpecError> excesses(const Study& study, const ServiceLimits& limits,
 
 class StudyService::Implementation {
  public:
-  Implementation(const std::filesystem::path& data, unsigned threads, const ServiceLimits& limits, Tell tell)
+  Implementation(const std::filesystem::path& data, unsigned threads, const ServiceLimits& limits, Tell tell,
+                 std::optional<Launcher> launcher)
       : limits_(limits),
         tell_(in_turn(std::move(tell))),
         data_(data),
         reader_(catalogue_, limits.opened_results),
-        runner_(catalogue_, threads > 0 ? threads : default_threads(), limits, tell_) {
+        runner_(catalogue_, threads > 0 ? threads : default_threads(), limits, tell_, std::move(launcher)) {
     std::vector<Catalogue::Entry> unfinished;
     for (const Catalogue::Entry& entry : data_.recover(tell_)) {
       catalogue_.insert(entry);
@@ -240,8 +246,8 @@ class StudyService::Implementation {
 };
 
 StudyService::StudyService(const std::filesystem::path& data, unsigned threads, const ServiceLimits& limits,
-                           std::function<void(const std::string&)> tell)
-    : implementation_(std::make_unique<Implementation>(data, threads, limits, std::move(tell))) {}
+                           std::function<void(const std::string&)> tell, std::optional<Launcher> launcher)
+    : implementation_(std::make_unique<Implementation>(data, threads, limits, std::move(tell), std::move(launcher))) {}
 
 StudyService::~StudyService() = default;
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "report/comparison.hpp"
+#include "service/launcher.hpp"
 #include "service/service_counters.hpp"
 #include "service/service_errors.hpp"
 #include "service/service_limits.hpp"
@@ -54,9 +55,10 @@ class StudyService {
   ///
   /// @param threads  0: one a core
   /// @param tell     gets what an administrator should know, a line each, from any thread, one at a time; may be empty
+  /// @param launcher  runs each study as a program of its own, elsewhere; nothing: they run in this process
   /// @throws RunFailure naming the directory, where another process has it too or it cannot be used
   StudyService(const std::filesystem::path& data, unsigned threads, const ServiceLimits& limits = {},
-               std::function<void(const std::string&)> tell = {});
+               std::function<void(const std::string&)> tell = {}, std::optional<Launcher> launcher = {});
 
   /// As stop().
   ~StudyService();

@@ -1,0 +1,125 @@
+// Studies that the service runs through another program.
+
+#include "service/launcher.hpp"
+
+#include <fstream>
+
+#include "service_fixture.hpp"
+
+namespace steerstat::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using Words = std::vector<std::string>;
+
+class LaunchedStudies : public ServiceCase {
+ protected:
+  LaunchedStudies() { service.reset(); }
+
+  void begin_with(const Words& prefix) {
+    service.reset();
+    service = std::make_unique<StudyService>(
+        data, 2, limits, [this](const std::string& line) { told.push_back(line); },
+        Launcher{prefix, STEERSTAT_PROGRAM});
+  }
+
+  /// How a study ends for which a launcher does what it should not.
+  StudyState failed_through(const Words& prefix) {
+    begin_with(prefix);
+    const StudyState state = wait_for_end(service->submit(quick_spec(100)).state.id);
+    EXPECT_EQ(state.status, StudyStatus::failed);
+    return state;
+  }
+
+  [[nodiscard]] std::vector<std::string> launched_files(const std::string& id) const {
+    std::vector<std::string> names;
+    for (const auto& file : std::filesystem::directory_iterator(home(id))) {
+      const std::string name = file.path().filename().string();
+      if (name.starts_with("launched")) names.push_back(name);
+    }
+    return names;
+  }
+};
+
+TEST_F(LaunchedStudies, RunAsProgramsToTheSameBits) {
+  begin_with({"env", "--"});
+  const std::string spec = quick_spec(3000);
+  const std::string id = service->submit(spec).state.id;
+  const StudyState state = wait_for_end(id);
+  EXPECT_EQ(state.status, StudyStatus::succeeded) << state.failure.value_or("");
+  EXPECT_EQ(state.completed, 3000U);
+  expect_undisturbed(id, spec);
+  EXPECT_THAT(launched_files(id), ::testing::IsEmpty());
+  EXPECT_TRUE(service->summary(id).complete);
+}
+
+#ifdef MPIRUN_PROGRAM
+TEST_F(LaunchedStudies, RunOnTheRanksOfAnMpiJob) {
+  begin_with({"env", "PATH=/usr/bin:/bin", MPIRUN_PROGRAM, "--allow-run-as-root", "--oversubscribe", "-n", "2"});
+  const std::string spec = quick_spec(3000);
+  const std::string id = service->submit(spec).state.id;
+  const StudyState state = wait_for_end(id);
+  EXPECT_EQ(state.status, StudyStatus::succeeded) << state.failure.value_or("");
+  expect_undisturbed(id, spec);
+}
+#endif
+
+TEST_F(LaunchedStudies, FailWithWhatTheLauncherSaid) {
+  EXPECT_THAT(failed_through({"no-such-launcher"}).failure.value_or(""),
+              AllOf(HasSubstr("`no-such-launcher` ended with exit code 127"), HasSubstr("not found")));
+  EXPECT_THAT(failed_through({"sh", "-c", "echo no nodes left >&2; exit 9"}).failure.value_or(""),
+              HasSubstr("ended with exit code 9 (no nodes left)"));
+  EXPECT_THAT(failed_through({"true"}).failure.value_or(""), HasSubstr("left the study unfinished (it said nothing)"));
+  // A launcher that works lets it go on.
+  begin_with({"env"});
+  const std::string id = service->submit(quick_spec(100)).state.id;
+  EXPECT_EQ(wait_for_end(id).status, StudyStatus::succeeded);
+}
+
+TEST_F(LaunchedStudies, AreCancelledBySignalWithTheirTrialsKept) {
+  begin_with({"env"});
+  const std::string id = service->submit(long_spec()).state.id;
+  wait_until(id, [](const StudyState& state) { return state.completed > 0; });
+  wait_for_kept_trials(id);
+  const auto process = LaunchedProcess::find(home(id) / "launched.process");
+  EXPECT_TRUE(process);
+  const auto removal = service->cancel_or_remove(id);
+  EXPECT_EQ(removal.state.status, StudyStatus::cancelled);
+  EXPECT_FALSE(LaunchedProcess::find(home(id) / "launched.process"));
+  EXPECT_FALSE(service->trials(id, {}, 0, 1).rows.empty());
+}
+
+TEST_F(LaunchedStudies, ThatSurvivedARestartAreFollowedAndNotRunTwice) {
+  const std::string spec = quick_spec(100);
+  const std::string id = failed_through({"false"}).id;
+  service.reset();
+  const auto file = [&](const char* name) { return (home(id) / name).string(); };
+  // As a service has left it that was killed: what it launched waits for a file, then runs.
+  const Words command{"sh",
+                      "-c",
+                      "while ! [ -e \"$0\" ]; do sleep 0.05; done; exec \"$@\"",
+                      file("go"),
+                      STEERSTAT_PROGRAM,
+                      "run",
+                      file("launched.json"),
+                      "-o",
+                      file("launched.h5"),
+                      "--resume",
+                      "--no-progress"};
+  LaunchedProcess process = LaunchedProcess::launch(command, file("launched.process"), file("launched.log"));
+  while (!LaunchedProcess::find(file("launched.process"))) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  begin_with({"false"});
+  EXPECT_EQ(service->submit(spec).state.id, id);
+  wait_for(id, StudyStatus::running);
+  std::ofstream(file("go")) << "go";
+  const StudyState state = wait_for_end(id);
+  EXPECT_EQ(state.status, StudyStatus::succeeded) << state.failure.value_or("");
+  expect_undisturbed(id, spec);
+  service.reset();
+  EXPECT_THAT(told, ::testing::Contains(HasSubstr("is still run by what was launched for it before")));
+  while (!process.has_ended()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  EXPECT_EQ(process.exit_code(), 0);
+}
+
+}  // namespace
+}  // namespace steerstat::testing
