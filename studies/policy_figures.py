@@ -10,10 +10,12 @@ The same data give the same bytes with the same matplotlib.
 """
 
 import csv
+import itertools
 import math
 import pathlib
 import sys
 
+import matplotlib.patches
 import numpy as np
 
 from paper_figures import BLUE, GREY, ORANGE, matplotlib, plt, save
@@ -60,6 +62,20 @@ def success_figure(friction, directory):
     save(figure, directory, "policy-success")
 
 
+def fill(axis, edges, share, colours):
+    """Draws a map of shares in [0, 1], a rectangle for neighbours in a row that are equal: half the bytes of cells."""
+    x, y = edges
+    axis.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]), facecolor=colours(0.0))
+    for row, values in enumerate(share.T):
+        first = 0
+        for value, equals in itertools.groupby(values):
+            last = first + len(list(equals))
+            if value > 0:
+                axis.add_patch(matplotlib.patches.Rectangle((x[first], y[row]), x[last] - x[first], y[row + 1] - y[row],
+                                                            color=colours(value), antialiased=False, linewidth=0))
+            first = last
+
+
 def map_figure(combined, directory):
     figure, axes = plt.subplots(1, 2, figsize=(6.4, 2.8), layout="constrained", sharey=True)
     edges = (np.linspace(-math.pi, math.pi, 25), np.linspace(-0.5, 0.5, 17))
@@ -71,7 +87,7 @@ def map_figure(combined, directory):
         failures, *_ = np.histogram2d(*(values[~data["converged"]] for values in start), edges)
         # Twenty colours, few enough that the same share is the same bytes.
         share = np.round(20 * failures / trials) / 20
-        axis.pcolormesh(*edges, share.T, cmap=colours, vmin=0, vmax=1, antialiased=False, linewidth=0)
+        fill(axis, edges, share, colours)
         axis.set_xticks([-math.pi, 0, math.pi / 4, math.pi], ["−π", "0", "π/4", "π"])
         axis.set_xlabel("q₂ at the start [rad]")
         axis.set_title(f"{label}: {np.sum(failures):,.0f} failures", loc="left", fontsize=9)

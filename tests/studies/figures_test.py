@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks the committed figures: drawings in text, small, all that the README shows, all that paper_figures.py draws.
+"""Checks the committed figures: drawings in text, small, all that the README shows, all that the scripts draw.
 
 Usage: figures_test.py SOURCE_DIRECTORY
 """
@@ -16,9 +16,10 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 
 class Figures(unittest.TestCase):
-    def test_are_those_of_the_paper_and_a_map(self):
+    def test_are_those_of_the_paper_of_the_policies_and_a_map(self):
         self.assertEqual([path.name for path in FIGURES],
-                         [f"figure-{i}.svg" for i in range(2, 8)] + ["success-map.svg"])
+                         [f"figure-{i}.svg" for i in range(2, 8)] +
+                         [f"policy-{name}.svg" for name in ("costs", "maps", "success")] + ["success-map.svg"])
 
     def test_are_drawings_in_text_below_100_kb(self):
         for path in FIGURES:
@@ -33,7 +34,7 @@ class Figures(unittest.TestCase):
         for path in FIGURES:
             with self.subTest(path.name):
                 texts = " ".join("".join(text.itertext()) for text in ElementTree.parse(path).iter(f"{SVG}text"))
-                self.assertRegex(texts, r"\[(s|rad)\]")
+                self.assertRegex(texts, r"\[(s|rad|N m s/rad)\]")
 
     def test_that_the_readme_shows_are_there(self):
         shown = re.findall(r"!\[[^\]]+\]\((studies/figures/[^)]+)\)", (SOURCE / "README.md").read_text(encoding="utf-8"))
