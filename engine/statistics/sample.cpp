@@ -1,8 +1,10 @@
 #include "statistics/sample.hpp"
 
 #include <algorithm>
-#include <boost/sort/spreadsort/float_sort.hpp>
+#include <bit>
+#include <boost/sort/spreadsort/integer_sort.hpp>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 #include <vector>
 
@@ -24,10 +26,26 @@ std::optional<double> standard_deviation(std::span<const double> sample, double 
   return std::sqrt(squares.value() / static_cast<double>(sample.size() - 1));
 }
 
+constexpr std::uint64_t sign_bit = std::uint64_t{1} << 63;
+
+/// A whole number in whose order numbers are.
+std::uint64_t key_of(double x) {
+  const auto bits = std::bit_cast<std::uint64_t>(x);
+  return (bits & sign_bit) != 0 ? ~bits : bits | sign_bit;
+}
+
+double number_of(std::uint64_t key) {
+  return std::bit_cast<double>((key & sign_bit) != 0 ? key & ~sign_bit : ~key);
+}
+
 }  // namespace
 
 void sort_ascending(std::span<double> sample) {
-  boost::sort::spreadsort::float_sort(sample.begin(), sample.end());
+  // Boost's float_sort takes differences of signed bit patterns, which overflow where signs are mixed.
+  std::vector<std::uint64_t> keys(sample.size());
+  std::ranges::transform(sample, keys.begin(), key_of);
+  boost::sort::spreadsort::integer_sort(keys.begin(), keys.end());
+  std::ranges::transform(keys, sample.begin(), number_of);
 }
 
 double quantile(std::span<const double> sorted, double p) {
