@@ -9,6 +9,7 @@
 #include "report/readable.hpp"
 #include "study/plan.hpp"
 #include "study/spec_json.hpp"
+#include "study/watched.hpp"
 #include "trial/metric.hpp"
 
 namespace steerstat {

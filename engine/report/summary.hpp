@@ -15,6 +15,7 @@
 #include "statistics/proportion.hpp"
 #include "statistics/proportion_drop.hpp"
 #include "statistics/sample.hpp"
+#include "study/precision_watch.hpp"
 #include "study/run.hpp"
 #include "study/study.hpp"
 #include "trial/metric.hpp"

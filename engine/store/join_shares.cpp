@@ -13,6 +13,7 @@
 #include "store/result_file.hpp"
 #include "study/plan.hpp"
 #include "study/spec_json.hpp"
+#include "study/watched.hpp"
 
 namespace steerstat {
 namespace {

@@ -21,6 +21,7 @@
 #include "store/whole_file.hpp"
 #include "study/spec_json.hpp"
 #include "study/subset_simulation.hpp"
+#include "study/watched.hpp"
 
 namespace steerstat {
 namespace {

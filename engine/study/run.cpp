@@ -1,65 +1,31 @@
 #include "study/run.hpp"
 
-#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <condition_variable>
-#include <exception>
-#include <mutex>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <stdexcept>
-#include <string>
-#include <thread>
 #include <utility>
 
+#include "core/elapsed.hpp"
 #include "study/block_queue.hpp"
+#include "study/block_stream.hpp"
 #include "study/finished_prefix.hpp"
+#include "study/for_each.hpp"
 #include "study/handover.hpp"
+#include "study/progress_reports.hpp"
+#include "study/recomputed.hpp"
 #include "study/sketched_run.hpp"
 #include "study/trial_range.hpp"
+#include "study/watched.hpp"
 
 namespace steerstat {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// One worker's count of finished trials, on a cache line of its own so that counting costs the other workers nothing.
-struct alignas(64) Tally {
-  std::atomic<std::uint64_t> finished{0};
-};
-
-/// What is told of every finished trial, beside its slot.
-struct Listeners {
-  FinishedPrefix* prefix;  ///< null where nothing but the last trial ends the run
-  HandOver* handover;      ///< null where nobody takes the outcomes meanwhile
-};
-
-std::uint64_t total(const std::vector<Tally>& tallies) {
-  return std::accumulate(tallies.begin(), tallies.end(), std::uint64_t{0}, [](std::uint64_t sum, const Tally& tally) {
-    return sum + tally.finished.load(std::memory_order_relaxed);
-  });
-}
-
-/// The trials of a plan from one on, counted from it.
-struct PlannedTrials {
-  const Plan& plan;
-  TrialRange range;
-
-  [[nodiscard]] std::uint64_t count() const { return range.end - range.begin; }
-  [[nodiscard]] TrialParameters parameters(std::uint64_t index) const { return plan.parameters(range.begin + index); }
-};
 
 /// Hands on what it takes, by the indices of the study.
 class RangeSink final : public OutcomeSink {
@@ -73,46 +39,6 @@ class RangeSink final : public OutcomeSink {
  private:
   OutcomeSink& sink_;
   const std::uint64_t begin_;
-};
-
-/// Feeds one worker's runner block after block, so that its lanes refill across blocks, and stores each outcome in the
-/// slot of its index. The slots of different trials are distinct objects: no two workers write the same one.
-class BlockStream final : public TrialStream {
- public:
-  BlockStream(const PlannedTrials& planned, BlockQueue& blocks, std::vector<TrialOutcome>& outcomes,
-              Listeners listeners, Tally& tally, Turnstile::Turn& turn)
-      : planned_(planned), blocks_(blocks), outcomes_(outcomes), listeners_(listeners), tally_(tally), turn_(turn) {}
-
-  bool next(std::uint64_t& index, TrialParameters& parameters) override {
-    if (block_.begin == block_.end) {
-      if (dry_) return false;
-      turn_.give_way();
-      const std::optional<TrialRange> claimed = blocks_.claim();
-      dry_ = !claimed;
-      if (dry_) return false;
-      block_ = *claimed;
-    }
-    index = block_.begin++;
-    parameters = planned_.parameters(index);
-    return true;
-  }
-
-  void finished(std::uint64_t index, const TrialOutcome& outcome) override {
-    outcomes_[index] = outcome;
-    tally_.finished.fetch_add(1, std::memory_order_relaxed);
-    if (listeners_.prefix != nullptr && listeners_.prefix->finished(index)) blocks_.halt();
-    if (listeners_.handover != nullptr) listeners_.handover->finished(index);
-  }
-
- private:
-  const PlannedTrials planned_;
-  BlockQueue& blocks_;
-  std::vector<TrialOutcome>& outcomes_;
-  const Listeners listeners_;
-  Tally& tally_;
-  Turnstile::Turn& turn_;
-  TrialRange block_{0, 0};
-  bool dry_{false};  // a runner may ask again after the end; the answer stays no
 };
 
 /// Shows a sink the slots of all outcomes, as long as they are there.
@@ -134,119 +60,6 @@ class Showing {
   OutcomeSink* sink_;
 };
 
-/// Calls the progress callback from a thread of its own, which sleeps in between, until destroyed or finish()ed.
-class ProgressReports {
- public:
-  /// @param earlier  trials finished before the run
-  ProgressReports(const RunOptions& options, std::uint64_t requested, std::uint64_t earlier,
-                  const std::vector<Tally>& tallies, Clock::time_point start, BlockQueue& blocks)
-      : callback_(options.on_progress),
-        requested_(requested),
-        earlier_(earlier),
-        tallies_(tallies),
-        start_(start),
-        blocks_(blocks) {
-    if (callback_) thread_ = std::jthread([this](const std::stop_token& stop) { report_until(stop); });
-  }
-
-  /// Makes the last report, from the calling thread. @throws what the callback threw
-  void finish() {
-    if (!callback_) return;
-    thread_.request_stop();
-    thread_.join();
-    if (failure_) std::rethrow_exception(failure_);
-    report();
-  }
-
- private:
-  void report() { callback_(Progress{earlier_ + total(tallies_), requested_, seconds_since(start_), earlier_}); }
-
-  void report_until(const std::stop_token& stop) {
-    constexpr std::chrono::milliseconds interval{200};
-    std::mutex mutex;
-    std::condition_variable_any wake;
-    std::unique_lock lock(mutex);
-    try {
-      while (!stop.stop_requested()) {
-        report();
-        wake.wait_for(lock, stop, interval, [] { return false; });
-      }
-    } catch (...) {
-      failure_ = std::current_exception();
-      blocks_.halt();
-    }
-  }
-
-  const std::function<void(const Progress&)>& callback_;
-  const std::uint64_t requested_;
-  const std::uint64_t earlier_;
-  const std::vector<Tally>& tallies_;
-  const Clock::time_point start_;
-  BlockQueue& blocks_;
-  std::exception_ptr failure_{};
-  std::jthread thread_{};  // last: it uses all of the above
-};
-
-/// The first `first` of all rows and the first `failed` that did not converge, ascending, each once.
-/// @param all_rows  whether the table has the rows of all finished trials
-std::vector<std::uint64_t> rows_to_retain(const Retention& retention, const TrialTable& trials, bool all_rows) {
-  std::vector<std::uint64_t> rows;
-  std::uint64_t failures = 0;
-  for (std::uint64_t row = 0; row < trials.outcomes.size(); ++row) {
-    const bool failed = trials.outcomes[row].status != Status::converged;
-    const bool first = (all_rows ? row : trials.index[row]) < retention.first;
-    if (first || (failed && failures < retention.failed)) rows.push_back(row);
-    failures += failed ? 1 : 0;
-    if (!first && failures >= retention.failed) break;
-  }
-  return rows;
-}
-
-std::vector<StudyResult::Retained> retained_trajectories(const Study& study, const Plan& plan, const TrialTable& trials,
-                                                         Turnstile* turns) {
-  const std::vector<std::uint64_t> rows = rows_to_retain(study.retention, trials, study.store == Store::all);
-  std::vector<StudyResult::Retained> retained(rows.size());
-  tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
-    const Turnstile::Turn turn(turns);
-    const std::uint64_t index = trials.index[rows[i]];
-    retained[i] = {index, replay(plan.parameters(index), study.integrator)};
-    if (!same_bits(retained[i].trajectory.outcome, trials.outcomes[rows[i]])) {
-      throw std::logic_error("the replay of trial " + std::to_string(index) + " ended differently from its run");
-    }
-  });
-  return retained;
-}
-
-/// The indices of trials to audit.
-std::vector<std::uint64_t> trials_to_audit(const Study& study, const TrialTable& trials) {
-  std::vector<std::uint64_t> indices = rows_to_audit(study.sampling.seed, study.audited_trials, trials.index.size());
-  for (std::uint64_t& row : indices) row = trials.index[row];
-  return indices;
-}
-
-/// Computes trials of the run again with the reference integrator. After a stop request no further one is begun.
-Audit audit_of(const Study& study, const Plan& plan, std::span<const std::uint64_t> indices,
-               const RunOptions& options) {
-  const IntegratorChoice auditor = auditor_of(study.integrator);
-  std::vector<std::optional<AuditedTrial>> finished(indices.size());
-  const auto audit_one = [&](std::size_t i) {
-    const Turnstile::Turn turn(options.turns);
-    if (options.stop.stop_requested()) return;
-    const std::uint64_t index = indices[i];
-    finished[i] = audited(index, make_runner(auditor)->run(plan.parameters(index)));
-  };
-  tbb::parallel_for(std::size_t{0}, indices.size(), audit_one, tbb::simple_partitioner{});
-  Audit audit{auditor.tolerance, {}};
-  for (const std::optional<AuditedTrial>& trial : finished) {
-    if (trial) audit.trials.push_back(*trial);
-  }
-  return audit;
-}
-
-PrecisionWatch watch_of(const Study& study, const Plan& plan) {
-  return {*study.stop, study.sampling.trials, plan.cells()};
-}
-
 /// Shows the rule the trials that were finished before the run.
 void show(FinishedPrefix& prefix, std::span<const TrialRange> known, BlockQueue& blocks) {
   bool stopped = false;
@@ -254,6 +67,14 @@ void show(FinishedPrefix& prefix, std::span<const TrialRange> known, BlockQueue&
     for (std::uint64_t index = range.begin; index < range.end; ++index) stopped = prefix.finished(index);
   }
   if (stopped) blocks.halt();
+}
+
+/// On so many workers, each taking a number at a time.
+ForEach for_each_on(unsigned threads) {
+  return [threads](std::size_t count, const std::function<void(std::size_t)>& task) {
+    tbb::task_arena arena(static_cast<int>(threads));
+    arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, task, tbb::simple_partitioner{}); });
+  };
 }
 
 /// Runs the workers until no block is left to begin. @throws what a worker threw
@@ -271,8 +92,7 @@ void work(const Study& study, const PlannedTrials& planned, const RunOptions& op
       throw;  // TBB hands the first to the caller
     }
   };
-  tbb::task_arena arena(static_cast<int>(tallies.size()));
-  arena.execute([&] { tbb::parallel_for(std::size_t{0}, tallies.size(), work_as, tbb::simple_partitioner{}); });
+  for_each_on(static_cast<unsigned>(tallies.size()))(tallies.size(), work_as);
 }
 
 /// Runs what was not finished earlier; until the watch has stopped, where there is one. Fills in the trials, counted as
@@ -280,7 +100,7 @@ void work(const Study& study, const PlannedTrials& planned, const RunOptions& op
 /// @return the first trial that was not begun, before which all are finished
 std::uint64_t run_trials(const Study& study, const PlannedTrials& planned, const RunOptions& options,
                          FinishedTrials earlier, std::optional<PrecisionWatch> watch, StudyResult& result) {
-  const Clock::time_point start = Clock::now();
+  const auto start = std::chrono::steady_clock::now();
   const std::uint64_t block = block_size(study);
   const std::vector<TrialRange> known = ranges_of(earlier.trials.index);
   std::vector<TrialOutcome> outcomes = spread(std::move(earlier.trials), planned.count());
@@ -303,7 +123,8 @@ std::uint64_t run_trials(const Study& study, const PlannedTrials& planned, const
   if (handover) handover->finish();
   reports.finish();
   showing.end();
-  if (total(tallies) != blocks.begun()) throw std::logic_error("a runner returned before its trials were finished");
+  if (finished_of(tallies) != blocks.begun())
+    throw std::logic_error("a runner returned before its trials were finished");
   result.trials = gathered(std::move(outcomes), blocks.first_left(), known);
   return blocks.first_left();
 }
@@ -321,17 +142,14 @@ void cut_where_due(const Study& study, std::uint64_t finished, StudyResult& resu
 /// What a run of a study that does not keep all rows stands on.
 SketchedRunMeans sketched_run_means(const Study& study, const Plan& plan, unsigned threads, InstructionSet simd) {
   SketchedRunMeans means;
-  means.run_piece = [&study, &plan, threads, simd](TrialRange piece, const RunOptions& options) {
+  means.run_piece = [&study, &plan, threads, simd](TrialRange piece, const RunOptions& options, TrialTable room) {
     StudyResult result;
     result.threads = threads;
     result.simd = simd;
-    run_trials(study, {plan, piece}, options, {}, std::nullopt, result);
+    run_trials(study, {plan, piece}, options, {std::move(room)}, std::nullopt, result);
     return result;
   };
-  means.for_each = [threads](std::size_t count, const std::function<void(std::size_t)>& task) {
-    tbb::task_arena arena(static_cast<int>(threads));
-    arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, task, tbb::simple_partitioner{}); });
-  };
+  means.for_each = for_each_on(threads);
   return means;
 }
 
@@ -360,36 +178,6 @@ class AllowedWorkers {
 };
 
 }  // namespace
-
-std::optional<StopReport> watched(const Study& study, const TrialTable& trials) {
-  if (!study.stop) return std::nullopt;
-  PrecisionWatch watch = watch_of(study, Plan(study));
-  for (std::uint64_t row = 0; row < trials.index.size() && trials.index[row] == row && !watch.stopped(); ++row) {
-    watch.add(trials.outcomes[row]);
-  }
-  return watch.report();
-}
-
-std::uint64_t trials_due(const Study& study, const TrialTable& trials) {
-  const std::optional<StopReport> report = watched(study, trials);
-  return report && report->reason ? report->trials : Plan(study).trials();
-}
-
-std::optional<StopReport> watched(const Study& study, const TrialSketch& sketch) {
-  if (!study.stop) return std::nullopt;
-  PrecisionWatch watch = watch_of(study, Plan(study));
-  watch.skip_to(sketch.cells(), sketch.count());
-  return watch.report();
-}
-
-std::optional<StopReport> watched(const Study& study, const StudyResult& result) {
-  return result.sketch ? watched(study, *result.sketch) : watched(study, result.trials);
-}
-
-std::uint64_t trials_due(const Study& study, const StudyResult& result) {
-  const std::optional<StopReport> report = watched(study, result);
-  return report && report->reason ? report->trials : Plan(study).trials();
-}
 
 std::uint64_t portion_size(const Study& study) {
   return block_size(study) * (study.store == Store::all ? 1 : Plan(study).cells());
@@ -422,7 +210,7 @@ StudyResult run_study(const Study& study, const RunOptions& options, FinishedTri
     result.complete = run_sketched(study, plan, every_trial, options, std::move(earlier), means, result);
   } else {
     std::optional<PrecisionWatch> watch;
-    if (study.stop) watch.emplace(watch_of(study, plan));
+    if (study.stop) watch.emplace(watch_of(study));
     const PlannedTrials planned{plan, every_trial};
     cut_where_due(study, run_trials(study, planned, options, std::move(earlier), std::move(watch), result), result);
   }
@@ -432,13 +220,11 @@ StudyResult run_study(const Study& study, const RunOptions& options, FinishedTri
   // Of a few lockstep trials, which fill one block, the audit still has work for every thread.
   const unsigned cores = default_threads();
   const unsigned asked = options.threads == 0 ? cores : options.threads;
-  tbb::task_arena wide_arena(static_cast<int>(std::min(asked, std::max(result.threads, cores))));
+  const ForEach wide = for_each_on(std::min(asked, std::max(result.threads, cores)));
   const bool shows = result.complete && study.store == Store::all;
   const Showing showing(shows ? options.sink : nullptr, result.trials.outcomes);
-  wide_arena.execute([&] {
-    result.trajectories = retained_trajectories(study, plan, result.trials, options.turns);
-    result.audit = audit_of(study, plan, to_audit, options);
-  });
+  result.trajectories = retained_trajectories(study, plan, result.trials, options.turns, wide);
+  result.audit = audit_of(study, plan, to_audit, options, wide);
   return result;
 }
 

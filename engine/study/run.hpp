@@ -11,7 +11,6 @@
 #include "study/audit.hpp"
 #include "study/outcome_sink.hpp"
 #include "study/plan.hpp"
-#include "study/precision_watch.hpp"
 #include "study/share.hpp"
 #include "study/study.hpp"
 #include "study/trial_table.hpp"
@@ -70,21 +69,6 @@ struct StudyResult {
 /// with CVODE, whose trials take milliseconds, so that a stop is quick and the last blocks end together. Depends on the
 /// study alone, so that what a stopped run keeps can be compared between machines.
 std::uint64_t block_size(const Study& study);
-
-/// What the study's rule makes of its finished trials: of those from index 0 up to the first gap. Nothing without a
-/// rule.
-std::optional<StopReport> watched(const Study& study, const TrialTable& trials);
-
-/// The same of a study that does not keep all rows. @param sketch  of all trials up to some index
-std::optional<StopReport> watched(const Study& study, const TrialSketch& sketch);
-
-/// Whichever of the two there is of a result.
-std::optional<StopReport> watched(const Study& study, const StudyResult& result);
-
-/// How many trials a finished run of the study leaves: all, or as many as its rule let it take before it stopped.
-/// @param trials  those that it left
-std::uint64_t trials_due(const Study& study, const TrialTable& trials);
-std::uint64_t trials_due(const Study& study, const StudyResult& result);
 
 /// What the trials of a study are dealt out in, to machines and processes: whole blocks, and whole draws where the
 /// study does not keep all rows.

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "core/elapsed.hpp"
 #include "study/audit.hpp"
 #include "study/precision_watch.hpp"
 #include "study/trial_table.hpp"
@@ -15,10 +16,6 @@ namespace steerstat {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 bool failed(const TrialOutcome& outcome) {
   return outcome.status != Status::converged;
@@ -31,16 +28,22 @@ class PieceSize {
   PieceSize(const Study& study, std::uint64_t cells, unsigned threads)
       : cells_(cells), least_(block_size(study) * threads), next_(4 * least_) {}
 
-  [[nodiscard]] std::uint64_t next() const { return (next_ + cells_ - 1) / cells_ * cells_; }
+  [[nodiscard]] std::uint64_t next() const { return whole_draws(next_); }
+  [[nodiscard]] std::uint64_t largest() const { return whole_draws(std::max(most, next_)); }
 
   void took(std::uint64_t trials, double seconds) {
     constexpr double aim = 1.0;
-    constexpr std::uint64_t most = std::uint64_t{1} << 18;
     const double due = static_cast<double>(trials) * std::min(aim / std::max(seconds, 1e-6), 16.0);
     next_ = std::clamp(static_cast<std::uint64_t>(due), std::min(least_, most), most);
   }
 
  private:
+  static constexpr std::uint64_t most = std::uint64_t{1} << 18;
+
+  [[nodiscard]] std::uint64_t whole_draws(std::uint64_t trials) const {
+    return (trials + cells_ - 1) / cells_ * cells_;
+  }
+
   const std::uint64_t cells_;
   const std::uint64_t least_;
   std::uint64_t next_;
@@ -61,6 +64,7 @@ class SketchedRun {
   bool run(StudyResult& result) {
     pending_.sketch.emplace(cells_);
     PieceSize size(study_, cells_, result.threads);
+    room_.outcomes.reserve(std::min(size.largest(), range_.end - range_.begin));
     for (const TrialRange& gap : gaps()) {
       for (std::uint64_t begin = gap.begin; begin < gap.end && !is_over();) {
         begin += run_piece({begin, std::min(begin + size.next(), gap.end)}, size);
@@ -102,13 +106,16 @@ class SketchedRun {
   /// @return how many trials of it were kept
   std::uint64_t run_piece(TrialRange piece, PieceSize& size) {
     const Clock::time_point start = Clock::now();
-    const StudyResult ran = means_.run_piece(piece, options_of_piece());
+    StudyResult ran = means_.run_piece(piece, options_of_piece(), std::exchange(room_, {}));
     std::uint64_t kept = ran.trials.outcomes.size() / cells_ * cells_;
     interrupted_ = kept < piece.end - piece.begin;
     if (watch_) kept = watched(ran.trials.outcomes, kept, piece.begin);
     const auto outcomes = std::span(ran.trials.outcomes).first(kept);
     keep_rows(piece.begin, outcomes);
     pending_.sketch->add(piece.begin, outcomes, means_.for_each);
+    room_ = std::move(ran.trials);
+    room_.index.clear();
+    room_.outcomes.clear();
     const double seconds = seconds_since(start);
     pending_.wall_s += seconds;
     size.took(piece.end - piece.begin, seconds);
@@ -172,6 +179,7 @@ class SketchedRun {
   const std::uint64_t cells_;
   FinishedTrials all_;
   FinishedTrials pending_;  // of all, what the sink was not given yet
+  TrialTable room_;         // for the rows of a piece
   std::optional<PrecisionWatch> watch_;
   std::uint64_t earlier_{0};
   double earlier_s_{0.0};
@@ -199,7 +207,7 @@ bool run_sketched(const Study& study, const Plan& plan, TrialRange range, const 
 }
 
 std::vector<std::uint64_t> complete_rows(const Study& study, const Plan& plan, const RunOptions& options,
-                                         const TrialSketch::ForEach& for_each, StudyResult& result) {
+                                         const ForEach& for_each, StudyResult& result) {
   // Complete, it has all trials up to some index, so that a row of them is its index.
   std::vector<std::uint64_t> audited;
   if (result.complete) {

@@ -13,9 +13,10 @@ namespace steerstat {
 /// What a run of a study that does not keep all rows stands on.
 struct SketchedRunMeans {
   /// Runs trials of a range, from its first one on without a gap: all, or fewer after a stop request. Their rows are
-  /// counted from the range's first trial.
-  std::function<StudyResult(TrialRange, const RunOptions&)> run_piece;
-  TrialSketch::ForEach for_each;
+  /// counted from the range's first trial. The last argument is an empty table whose memory they are put into: one that
+  /// every piece is freed from and another one allocated for, of another size, leaves holes that add up.
+  std::function<StudyResult(TrialRange, const RunOptions&, TrialTable)> run_piece;
+  ForEach for_each;
 };
 
 /// Runs a range of a study's trials piece by piece, each some second's work, and keeps of each what the study stores.
@@ -35,6 +36,6 @@ bool run_sketched(const Study& study, const Plan& plan, TrialRange range, const 
 /// where they were not kept, and drops those that a run of just this study would not have kept.
 /// @return the indices of the trials to audit
 std::vector<std::uint64_t> complete_rows(const Study& study, const Plan& plan, const RunOptions& options,
-                                         const TrialSketch::ForEach& for_each, StudyResult& result);
+                                         const ForEach& for_each, StudyResult& result);
 
 }  // namespace steerstat

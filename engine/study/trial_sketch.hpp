@@ -2,13 +2,13 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "core/status.hpp"
 #include "statistics/moments.hpp"
 #include "statistics/quantile_sketch.hpp"
+#include "study/for_each.hpp"
 #include "study/trial_range.hpp"
 #include "trial/metric.hpp"
 #include "trial/trial.hpp"
@@ -36,9 +36,6 @@ struct MetricSketch {
 /// add up to that of the whole, to the bit, whatever the parts. Not thread-safe.
 class TrialSketch {
  public:
-  /// Runs `task` for every number below the first argument, on several threads or on one.
-  using ForEach = std::function<void(std::size_t, const std::function<void(std::size_t)>&)>;
-
   struct Cell {
     std::array<std::uint64_t, status_names.size()> outcomes{};  ///< by Status
     std::array<MetricSketch, metric_count> metrics{};           ///< in the order of metrics()

@@ -10,6 +10,7 @@
 #include "statistics/confidence_sequence.hpp"
 #include "study/plan.hpp"
 #include "study/spec_json.hpp"
+#include "study/watched.hpp"
 
 namespace steerstat {
 namespace {

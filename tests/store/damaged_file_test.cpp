@@ -9,6 +9,7 @@
 #include "store/result_file.hpp"
 #include "store/seal.hpp"
 #include "store/whole_file.hpp"
+#include "study/watched.hpp"
 #include "trial/metric.hpp"
 
 namespace steerstat {

@@ -11,6 +11,7 @@
 #include "study/plan.hpp"
 #include "study/run.hpp"
 #include "study/spec_json.hpp"
+#include "study/watched.hpp"
 
 namespace steerstat {
 namespace {

@@ -6,10 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <set>
 #include <stdexcept>
 
 #include "study/run.hpp"
 #include "study/spec_json.hpp"
+#include "study/watched.hpp"
 
 namespace steerstat {
 namespace {
@@ -155,11 +158,36 @@ TEST(SketchedRun, GivesItsSinkEveryTrialOnce) {
   EXPECT_GE(result.trials.index.size(), keeper.kept.trials.index.size());
 }
 
+void for_each_in_turn(std::size_t count, const std::function<void(std::size_t)>& task) {
+  for (std::size_t i = 0; i < count; ++i) task(i);
+}
+
+TEST(SketchedRun, PutsEveryPieceIntoTheSameMemory) {
+  const Study study = study_of("summary", 300000);
+  std::set<const TrialOutcome*> places;
+  std::uint64_t pieces = 0;
+  SketchedRunMeans means;
+  means.for_each = for_each_in_turn;
+  means.run_piece = [&](TrialRange piece, const RunOptions&, TrialTable room) {
+    StudyResult ran;
+    ran.trials = std::move(room);
+    EXPECT_TRUE(ran.trials.index.empty());
+    EXPECT_TRUE(ran.trials.outcomes.empty());
+    ran.trials.outcomes.resize(piece.end - piece.begin);
+    places.insert(ran.trials.outcomes.data());
+    ++pieces;
+    return ran;
+  };
+  StudyResult result;
+  result.threads = 1;
+  EXPECT_TRUE(run_sketched(study, Plan(study), {0, 300000}, {}, {}, means, result));
+  EXPECT_GT(pieces, 2U);
+  EXPECT_EQ(places.size(), 1U);
+}
+
 TEST(TrialSketch, RefusesTrialsThatItHasAndHalfADraw) {
   const std::vector<TrialOutcome> outcomes(6);
-  const TrialSketch::ForEach in_turn = [](std::size_t count, const std::function<void(std::size_t)>& task) {
-    for (std::size_t i = 0; i < count; ++i) task(i);
-  };
+  const ForEach in_turn = for_each_in_turn;
   TrialSketch sketch(3);
   sketch.add(3, outcomes, in_turn);
   EXPECT_THROW(sketch.add(6, outcomes, in_turn), std::invalid_argument);
