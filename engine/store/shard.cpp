@@ -4,6 +4,7 @@
 
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "core/errors.hpp"
 #include "core/version.hpp"
@@ -55,6 +56,12 @@ Shard read_bytes(std::span<const std::byte> bytes, const ShardOrigin& origin, st
 
 ShardOrigin origin_of(const Study& study) {
   return {std::string(engine_version()), trials_sha256(study)};
+}
+
+FinishedTrials finished_trials(Shard shard) {
+  FinishedTrials finished{{{}, std::move(shard.outcomes)}, shard.wall_s};
+  for (std::uint64_t i = 0; i < finished.trials.outcomes.size(); ++i) finished.trials.index.push_back(shard.begin + i);
+  return finished;
 }
 
 std::string shard_name(std::uint64_t begin, std::uint64_t end) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "study/study.hpp"
+#include "study/trial_table.hpp"
 #include "trial/trial.hpp"
 
 namespace steerstat {
@@ -27,6 +28,9 @@ struct Shard {
   std::vector<TrialOutcome> outcomes;  ///< (trials) at least one
   double wall_s{0.0};                  ///< [s] that the run took for them
 };
+
+/// Its trials, with their indices.
+FinishedTrials finished_trials(Shard shard);
 
 /// "trials-000000000000-000000065536.h5" for the trials [0, 65536): in the order of names, shards are in that of
 /// trials.

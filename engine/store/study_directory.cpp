@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <system_error>
 #include <utility>
 
@@ -21,20 +20,12 @@ namespace fs = std::filesystem;
 
 constexpr const char* damaged_prefix = "damaged-";
 
-[[noreturn]] void fail(const char* verb, const fs::path& path, const std::error_code& error) {
-  throw RunFailure(fmt::format("cannot {} {} ({})", verb, path.string(), error.message()));
-}
-
 /// A directory that is new is on the disk with its name before anything is kept in it.
 void make_directory(const fs::path& path) {
   std::error_code error;
   const bool made = fs::create_directory(path, error);
-  if (error) fail("make the directory", path, error);
+  if (error) fail_at("make the directory", path, error);
   if (made) sync_directory(path.has_parent_path() ? path.parent_path() : ".");
-}
-
-bool begins_with(const fs::path& file, const char* prefix) {
-  return file.filename().string().starts_with(prefix);
 }
 
 }  // namespace
@@ -42,25 +33,13 @@ bool begins_with(const fs::path& file, const char* prefix) {
 StudyDirectory::StudyDirectory(fs::path path) : path_(std::move(path)) {
   make_directory(path_);
   lock_.emplace(path_);
-  for (const fs::path& file : files_called(temporary_prefix)) {
+  for (const fs::path& file : files_in(path_, {temporary_prefix})) {
     if (!is_own_temporary(file)) remove_file(file);  // others of this process may be at work on what is no trial
   }
 }
 
-std::vector<fs::path> StudyDirectory::files_called(const char* prefix) const {
-  std::error_code error;
-  std::vector<fs::path> found;
-  fs::directory_iterator entry(path_, error);
-  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-    if (begins_with(entry->path(), prefix)) found.push_back(entry->path());
-  }
-  if (error) fail("list", path_, error);
-  std::sort(found.begin(), found.end());
-  return found;
-}
-
 bool StudyDirectory::has_shards() const {
-  return !files_called(shard_prefix).empty() || !files_called(damaged_prefix).empty();
+  return !files_in(path_, {shard_prefix, damaged_prefix}).empty();
 }
 
 std::optional<StoredStudy> StudyDirectory::begun() const {
@@ -97,17 +76,14 @@ void StudyDirectory::begin(const Study& study, std::optional<StudyShare> share) 
 
 FinishedTrials StudyDirectory::read_part(const fs::path& file) const {
   if (study_->store != Store::all) return read_sketched_part(file, origin_, *study_);
-  Shard shard = read_shard(file, origin_, Plan(*study_).trials());
-  FinishedTrials part{{{}, std::move(shard.outcomes)}, shard.wall_s};
-  for (std::uint64_t i = 0; i < part.trials.outcomes.size(); ++i) part.trials.index.push_back(shard.begin + i);
-  return part;
+  return finished_trials(read_shard(file, origin_, Plan(*study_).trials()));
 }
 
 Recovery StudyDirectory::recover() {
   // A rule sees trials in order, and no sketch tells what it would have seen of trials before a gap.
   const bool in_order = study_.value().store != Store::all && study_->stop;
   Recovery recovery;
-  for (const fs::path& file : files_called(shard_prefix)) {
+  for (const fs::path& file : files_in(path_, {shard_prefix})) {
     try {
       FinishedTrials part = read_part(file);
       const bool follows =
@@ -130,7 +106,7 @@ SetAside StudyDirectory::set_aside(const fs::path& file, const std::string& reas
   } while (fs::exists(name));
   std::error_code error;
   fs::rename(file, name, error);
-  if (error) fail("rename", file, error);
+  if (error) fail_at("rename", file, error);
   return {name, reason};
 }
 
@@ -144,22 +120,22 @@ void StudyDirectory::keep(const FinishedTrials& piece) {
 
 void StudyDirectory::consolidate(const fs::path& path, const StudyResult& result) {
   write_result(path, study_.value(), result, path_);
-  remove_files(shard_prefix);
-  remove_files(damaged_prefix);
+  remove_files({shard_prefix, damaged_prefix});
 }
 
 void StudyDirectory::remove() {
-  for (const char* prefix : {shard_prefix, damaged_prefix, temporary_prefix, study_file, DirectoryLock::file_name}) {
-    remove_files(prefix);
-  }
+  // In this order: as long as there are trials, there is the study that they are of.
+  remove_files({shard_prefix, damaged_prefix, temporary_prefix, study_file, DirectoryLock::file_name});
   lock_.reset();
   std::error_code error;
   fs::remove(path_, error);
-  if (error && error != std::errc::directory_not_empty) fail("delete", path_, error);
+  if (error && error != std::errc::directory_not_empty) fail_at("delete", path_, error);
 }
 
-void StudyDirectory::remove_files(const char* prefix) const {
-  for (const fs::path& file : files_called(prefix)) remove_file(file);
+void StudyDirectory::remove_files(std::initializer_list<const char*> prefixes) const {
+  for (const char* const prefix : prefixes) {
+    for (const fs::path& file : files_in(path_, {prefix})) remove_file(file);
+  }
 }
 
 void ShardSink::take(std::uint64_t begin, std::span<const TrialOutcome> outcomes) {

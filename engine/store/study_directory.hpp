@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -74,10 +75,9 @@ class StudyDirectory {
 
  private:
   [[nodiscard]] bool holds(const Study& study, std::optional<StudyShare> share) const;
-  [[nodiscard]] std::vector<std::filesystem::path> files_called(const char* prefix) const;
   [[nodiscard]] FinishedTrials read_part(const std::filesystem::path& file) const;
   SetAside set_aside(const std::filesystem::path& file, const std::string& reason) const;
-  void remove_files(const char* prefix) const;
+  void remove_files(std::initializer_list<const char*> prefixes) const;
 
   std::filesystem::path path_;
   std::optional<DirectoryLock> lock_;

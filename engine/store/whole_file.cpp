@@ -17,6 +17,7 @@
 #include "store/failpoint.hpp"
 #include "store/free_space.hpp"
 #include "store/result_file.hpp"
+#include "store/study_files.hpp"
 
 namespace steerstat {
 namespace {
@@ -78,7 +79,7 @@ fs::path directory_of(const fs::path& path) {
 /// How the names of this process's temporary files begin, and those of no other, of another machine either.
 std::string own_prefix() {
   static const unsigned process = std::random_device{}();
-  return fmt::format(".tmp-{}-{:08x}-", ::getpid(), process);
+  return fmt::format("{}{}-{:08x}-", temporary_prefix, ::getpid(), process);
 }
 
 /// A name in a directory that no other write uses.

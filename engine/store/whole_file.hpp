@@ -9,15 +9,16 @@
 /// Files that are written whole or not at all, and read whole. Thread-safe.
 namespace steerstat {
 
+/// Whether a file may use the disk's reserve, see require_free_space(): small ones that tell of the others may.
+enum class Reserve { stays, may_be_used };
+
 /// Replaces the file at `path`: writes `.tmp-*` beside it, fsyncs, renames, and fsyncs the directory, so that after a
 /// kill or a power cut there is the old file or the new one. Through a symbolic link, the file it names is replaced. A
-/// device or a pipe is written to in place. A reserve of the disk stays free, see require_free_space().
+/// device or a pipe is written to in place.
 ///
 /// @param parts     the file's bytes, one part after the other
 /// @param workshop  where `.tmp-*` stands instead: a directory of the same file system, for those who clear it later
-/// @param reserve   whether the file may use the disk's reserve: small ones that tell of the others
 /// @throws RunFailure naming the path and the reason; whatever stood there is then untouched
-enum class Reserve { stays, may_be_used };
 void write_whole_file(const std::filesystem::path& path, std::initializer_list<std::span<const std::byte>> parts,
                       const std::filesystem::path& workshop = {}, Reserve reserve = Reserve::stays);
 

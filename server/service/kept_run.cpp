@@ -92,9 +92,11 @@ Ending run_to_end(const KeptRun& run) {
   directory.begin(study);
   std::optional<StudyResult> found = entry.home.whole_result(study);
   if (run.launcher && (!found || !found->complete)) {
-    if (!run_launched(run, *run.launcher)) return {false, entry.home.read(study, entry.origin).result.finished(), {}};
+    if (!run_launched(run, *run.launcher, directory))
+      return {false, entry.home.read(study, entry.origin).result.finished(), {}};
     found = entry.home.whole_result(study);
     entry.home.forget_launched();
+    entry.home.forget_earlier();
   } else if (!found || !is_whole(study, *found)) {
     found = run_what_is_left(run, directory, entry.home.recover(directory, study, run.tell));
     if (!is_whole(study, *found)) return {false, found->trials.index.size(), {}};

@@ -44,10 +44,12 @@ std::string last_words(const fs::path& log) {
 
 class LaunchedRun {
  public:
-  LaunchedRun(const KeptRun& run, const Launcher& launcher) : run_(run), launcher_(launcher), home_(run.entry.home) {}
+  LaunchedRun(const KeptRun& run, const Launcher& launcher, StudyDirectory& directory)
+      : run_(run), launcher_(launcher), directory_(directory), home_(run.entry.home) {}
 
   bool run_to_end() {
     LaunchedProcess process = found_or_launched();
+    note_earlier();
     follow(process);
     const std::stop_token stop = stop_token();
     if (const auto code = process.exit_code();
@@ -73,6 +75,7 @@ class LaunchedRun {
       run_.tell(fmt::format("study {} is still run by what was launched for it before", run_.entry.id));
       return *found;
     }
+    home_.hand_to_launched(directory_, *run_.entry.study, run_.tell);
     const std::string spec = canonical_spec(*run_.entry.study);
     write_whole_file(home_.launched_spec(), {std::as_bytes(std::span(spec))});
     std::vector<std::string> command = launcher_.prefix;
@@ -100,26 +103,39 @@ class LaunchedRun {
     note_progress();
   }
 
+  /// What it goes on from, which is no progress of this run.
+  void note_earlier() {
+    in_shards_before_ = home_.launched_trials();
+    completed_before_ = show_trials();
+    completed_ = completed_before_;
+    rate_.add(RecentRate::Clock::now(), completed_);
+    run_.catalogue.change(run_.entry, [&](StudyEntry& entry) { entry.record.completed = completed_; });
+  }
+
   void note_progress() {
-    const std::uint64_t completed = std::min(home_.launched_trials(), run_.entry.demand.trials);
+    const std::uint64_t in_shards = std::max(home_.launched_trials(), in_shards_before_);
+    const std::uint64_t completed =
+        std::min(completed_before_ + in_shards - in_shards_before_, run_.entry.demand.trials);
     if (completed <= completed_) return;
     run_.trials_done += completed - completed_;
     completed_ = completed;
     const std::optional<double> per_second = rate_.add(RecentRate::Clock::now(), completed);
-    show_trials();
+    if (Clock::now() >= next_reading_) show_trials();
     run_.catalogue.change(run_.entry, [&](StudyEntry& entry) {
       entry.record.completed = completed;
       entry.run->trials_per_s = per_second;
     });
   }
 
-  /// Lets readers see what has come, but does not spend more than a twentieth of the time on reading it.
-  void show_trials() {
+  /// Lets readers see what has come. That takes reading it; what is due again is put off, to be a twentieth of the
+  /// time.
+  /// @return how many trials there are
+  std::uint64_t show_trials() {
     const Clock::time_point begin = Clock::now();
-    if (begin < next_reading_) return;
     const auto kept = std::make_shared<const KeptStudy>(home_.read(*run_.entry.study, run_.entry.origin));
     run_.catalogue.change(run_.entry, [&](StudyEntry& entry) { entry.run->result = kept; });
     next_reading_ = Clock::now() + 20 * (Clock::now() - begin);
+    return kept->result.finished();
   }
 
   /// Puts the result in its place. @return whether there is a whole one
@@ -138,7 +154,10 @@ class LaunchedRun {
 
   const KeptRun& run_;
   const Launcher& launcher_;
+  StudyDirectory& directory_;
   const StudyHome& home_;
+  std::uint64_t completed_before_{0};  // trials, when this began to follow it
+  std::uint64_t in_shards_before_{0};  // of them
   std::uint64_t completed_{0};
   RecentRate rate_{};
   Clock::time_point next_reading_{};
@@ -146,8 +165,8 @@ class LaunchedRun {
 
 }  // namespace
 
-bool run_launched(const KeptRun& run, const Launcher& launcher) {
-  return LaunchedRun(run, launcher).run_to_end();
+bool run_launched(const KeptRun& run, const Launcher& launcher, StudyDirectory& directory) {
+  return LaunchedRun(run, launcher, directory).run_to_end();
 }
 
 }  // namespace steerstat

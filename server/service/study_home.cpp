@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <span>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "study/continuation.hpp"
 #include "study/plan.hpp"
 #include "study/spec_json.hpp"
+#include "study/trial_range.hpp"
 
 namespace steerstat {
 namespace {
@@ -21,25 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* earlier_prefix = "earlier-";
-
-[[noreturn]] void fail(const char* verb, const fs::path& path, const std::error_code& error) {
-  throw RunFailure(fmt::format("cannot {} {} ({})", verb, path.string(), error.message()));
-}
-
-std::vector<fs::path> files_in(const fs::path& directory, std::initializer_list<const char*> prefixes) {
-  std::error_code error;
-  std::vector<fs::path> found;
-  fs::directory_iterator entry(directory, error);
-  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-    const std::string name = entry->path().filename().string();
-    for (const char* const prefix : prefixes) {
-      if (name.starts_with(prefix)) found.push_back(entry->path());
-    }
-  }
-  if (error) fail("list", directory, error);
-  std::sort(found.begin(), found.end());
-  return found;
-}
 
 bool is_there(const fs::path& path) {
   std::error_code error;
@@ -70,6 +53,12 @@ std::uint64_t trials_of(const std::string& shard) {
   return end > begin ? end - begin : 0;
 }
 
+std::uint64_t trials_of(const std::vector<fs::path>& shards) {
+  std::uint64_t trials = 0;
+  for (const fs::path& file : shards) trials += trials_of(file.filename().string());
+  return trials;
+}
+
 /// Trials of a result that are those of `study` too. @throws RunFailure where they are not
 FinishedTrials trials_for(const Study& study, const std::string& version, const fs::path& file) {
   StoredStudy stored = read_result(file);
@@ -77,12 +66,6 @@ FinishedTrials trials_for(const Study& study, const std::string& version, const 
     throw RunFailure(fmt::format("{} is not of a study that this one continues", file.string()));
   }
   return {std::move(stored.result.trials), stored.result.wall_s};
-}
-
-FinishedTrials finished(Shard shard) {
-  FinishedTrials trials{{{}, std::move(shard.outcomes)}, shard.wall_s};
-  for (std::uint64_t i = 0; i < trials.trials.outcomes.size(); ++i) trials.trials.index.push_back(shard.begin + i);
-  return trials;
 }
 
 fs::path unused_name(const fs::path& wanted) {
@@ -108,12 +91,17 @@ void StudyHome::create(const Study& study, const StudyRecord& made, const StudyH
 }
 
 void StudyHome::link_from(const StudyHome& earlier) const {
-  // The result last: where it takes the place of shards meanwhile, those missed are in it.
+  // The results last: where one takes the place of shards meanwhile, those missed are in it.
   for (const fs::path& file : files_in(earlier.path_, {shard_prefix, earlier_prefix})) {
     link_or_copy(file, path_ / file.filename());
   }
+  for (const fs::path& file : earlier.launched_shards()) link_or_copy(file, path_ / file.filename());
+  const std::string id = earlier.path_.filename().string();
+  if (is_there(earlier.launched_result())) {
+    link_or_copy(earlier.launched_result(), path_ / fmt::format("{}{}-launched.h5", earlier_prefix, id));
+  }
   if (is_there(earlier.result())) {
-    link_or_copy(earlier.result(), path_ / fmt::format("{}{}.h5", earlier_prefix, earlier.path_.filename().string()));
+    link_or_copy(earlier.result(), path_ / fmt::format("{}{}.h5", earlier_prefix, id));
   }
 }
 
@@ -134,20 +122,19 @@ StoredStudy StudyHome::study() const {
 }
 
 std::uint64_t StudyHome::trials_in_shards() const {
-  std::uint64_t trials = 0;
-  for (const fs::path& file : files_in(path_, {shard_prefix})) trials += trials_of(file.filename().string());
-  return trials;
+  return trials_of(files_in(path_, {shard_prefix}));
 }
 
-std::uint64_t StudyHome::launched_trials() const noexcept {
+std::uint64_t StudyHome::launched_trials() const {
+  return trials_of(launched_shards());
+}
+
+/// It is another process's directory, which may go at any moment.
+std::vector<fs::path> StudyHome::launched_shards() const {
   try {
-    std::uint64_t trials = 0;
-    for (const fs::path& file : files_in(launched_parts(), {shard_prefix})) {
-      trials += trials_of(file.filename().string());
-    }
-    return trials;
-  } catch (const std::exception&) {
-    return 0;
+    return files_in(launched_parts(), {shard_prefix});
+  } catch (const RunFailure&) {
+    return {};
   }
 }
 
@@ -161,7 +148,7 @@ KeptStudy StudyHome::read(const Study& study, const ShardOrigin& origin) const {
   for (const fs::path& file : files_in(path_, {shard_prefix, earlier_prefix})) {
     try {
       const bool is_shard = file.filename().string().starts_with(shard_prefix);
-      all = joined(std::move(all), is_shard ? finished(read_shard(file, origin, trials))
+      all = joined(std::move(all), is_shard ? finished_trials(read_shard(file, origin, trials))
                                             : trials_for(study, origin.engine_version, file));
     } catch (const RunFailure&) {  // its next run tells, and runs those trials again
     }
@@ -182,8 +169,8 @@ FinishedTrials StudyHome::launched_finished(const Study& study, const ShardOrigi
   try {
     if (is_there(launched_result())) all = trials_for(study, origin.engine_version, launched_result());
     const std::uint64_t trials = Plan(study).trials();
-    for (const fs::path& file : files_in(launched_parts(), {shard_prefix})) {
-      all = joined(std::move(all), finished(read_shard(file, origin, trials)));
+    for (const fs::path& file : launched_shards()) {
+      all = joined(std::move(all), finished_trials(read_shard(file, origin, trials)));
     }
   } catch (const RunFailure&) {
   }
@@ -206,6 +193,26 @@ FinishedTrials StudyHome::recover(StudyDirectory& directory, const Study& study,
     }
   }
   return all;
+}
+
+void StudyHome::hand_to_launched(StudyDirectory& directory, const Study& study,
+                                 const std::function<void(const std::string&)>& tell) const {
+  constexpr std::uint64_t most_trials = std::uint64_t{1} << 20;  // a shard
+  const FinishedTrials known = recover(directory, study, tell);
+  if (known.trials.index.empty()) return;
+  StudyDirectory parts(launched_parts());
+  parts.begin(study);
+  const double each_s = known.wall_s / static_cast<double>(known.trials.index.size());
+  std::span<const TrialOutcome> left(known.trials.outcomes);
+  for (const TrialRange& range : known.ranges()) {
+    for (std::uint64_t begin = range.begin; begin < range.end;) {
+      const auto outcomes = left.first(std::min(range.end - begin, most_trials));
+      parts.keep(begin, outcomes, each_s * static_cast<double>(outcomes.size()));
+      left = left.subspan(outcomes.size());
+      begin += outcomes.size();
+    }
+  }
+  for (const fs::path& file : files_in(path_, {shard_prefix, earlier_prefix})) remove_file(file);
 }
 
 std::optional<StudyResult> StudyHome::whole_result(const Study& study) const {
@@ -235,7 +242,7 @@ void StudyHome::remove() const {
   const fs::path doomed = unused_name(path_.parent_path() / (removed_prefix + path_.filename().string()));
   std::error_code error;
   fs::rename(path_, doomed, error);
-  if (error) fail("remove", path_, error);
+  if (error) fail_at("remove", path_, error);
   sync_directory(path_.parent_path());
   fs::remove_all(doomed, error);  // what is left goes at the next start
 }
@@ -244,7 +251,7 @@ fs::path StudyHome::set_aside() const {
   const fs::path name = unused_name(path_.parent_path() / (damaged_prefix + path_.filename().string()));
   std::error_code error;
   fs::rename(path_, name, error);
-  if (error) fail("rename", path_, error);
+  if (error) fail_at("rename", path_, error);
   return name;
 }
 

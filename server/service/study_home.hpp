@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "service/study_record.hpp"
 #include "store/result_file.hpp"
@@ -56,8 +57,8 @@ class StudyHome {
   /// How many trials the names of its shards tell of. @throws RunFailure
   [[nodiscard]] std::uint64_t trials_in_shards() const;
 
-  /// The same of what is run through a launcher. Throws nothing: it is another process's directory, which may go.
-  [[nodiscard]] std::uint64_t launched_trials() const noexcept;
+  /// The same of the shards of what is run through a launcher, as long as there are any.
+  [[nodiscard]] std::uint64_t launched_trials() const;
 
   /// Every finished trial there is, read without changing anything; what is damaged is passed over.
   /// @param origin  of its shards
@@ -70,6 +71,12 @@ class StudyHome {
 
   /// The result, where it is there and whole. @throws RunFailure where it cannot be read
   [[nodiscard]] std::optional<StudyResult> whole_result(const Study& study) const;
+
+  /// Puts the trials that are finished here, or were in a study that this one extends, where what is run through a
+  /// launcher goes on from them. Repeated, after a kill at any moment, it does what is left.
+  /// @param directory, tell  as for recover() @throws RunFailure
+  void hand_to_launched(StudyDirectory& directory, const Study& study,
+                        const std::function<void(const std::string&)>& tell) const;
 
   /// Deletes what a result has made superfluous: links to earlier studies, a partial result. @throws RunFailure
   void forget_earlier() const;
@@ -91,6 +98,7 @@ class StudyHome {
   static constexpr const char* damaged_prefix = "damaged-";
 
  private:
+  [[nodiscard]] std::vector<std::filesystem::path> launched_shards() const;
   [[nodiscard]] FinishedTrials launched_finished(const Study& study, const ShardOrigin& origin) const;
   void link_from(const StudyHome& earlier) const;
 

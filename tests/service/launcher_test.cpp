@@ -2,7 +2,10 @@
 
 #include "service/launcher.hpp"
 
+#include <csignal>
 #include <fstream>
+#include <sstream>
+#include <utility>
 
 #include "service_fixture.hpp"
 
@@ -10,6 +13,7 @@ namespace steerstat::testing {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 using Words = std::vector<std::string>;
 
 class LaunchedStudies : public ServiceCase {
@@ -31,14 +35,63 @@ class LaunchedStudies : public ServiceCase {
     return state;
   }
 
-  [[nodiscard]] std::vector<std::string> launched_files(const std::string& id) const {
+  /// Goes on through a launcher whose programs say what they do into said_.
+  void begin_telling(const Words& prefix = {}) {
+    Words telling{"sh", "-c", R"(exec "$@" 2>>"$0")", said_};
+    telling.insert(telling.end(), prefix.begin(), prefix.end());
+    begin_with(telling);
+  }
+  [[nodiscard]] std::string said() const {
+    std::ostringstream text;
+    text << std::ifstream(said_).rdbuf();
+    return std::move(text).str();
+  }
+
+  /// Runs a study, and one of half as many trials again, which is to run those alone.
+  void expect_extension(const Words& prefix) {
+    begin_telling(prefix);
+    wait_for_end(service->submit(quick_spec(2000)).state.id);
+    const std::string spec = quick_spec(3000);
+    const std::string id = service->submit(spec).state.id;
+    const StudyState state = wait_for_end(id);
+    EXPECT_EQ(state.status, StudyStatus::succeeded) << state.failure.value_or("");
+    EXPECT_EQ(state.completed, 3000U);
+    expect_undisturbed(id, spec);
+    EXPECT_THAT(said(), HasSubstr("resuming after 2,000 of 3,000 trials"));
+    EXPECT_THAT(files_called(id, "earlier-"), ::testing::IsEmpty());
+    EXPECT_THAT(files_called(id, "launched"), ::testing::IsEmpty());
+  }
+
+  /// Begins a study and waits until some of its trials are kept. It goes well, too, where it has ended by then.
+  std::string begun_and_kept() {
+    const std::string id = service->submit(quick_spec(some_trials)).state.id;
+    wait_for_kept_trials(id);
+    return id;
+  }
+
+  /// Runs a study that continues one which was begun, and expects that it does not run all of its trials.
+  void expect_continuation(const std::string& spec) {
+    const std::string id = service->submit(spec).state.id;
+    const StudyState state = wait_for_end(id);
+    EXPECT_EQ(state.status, StudyStatus::succeeded) << state.failure.value_or("");
+    expect_undisturbed(id, spec);
+    const std::string text = said();
+    const std::size_t resuming = text.rfind("resuming after");
+    ASSERT_NE(resuming, std::string::npos) << text;
+    EXPECT_THAT(text.substr(resuming), Not(::testing::StartsWith("resuming after 0 of")));
+  }
+
+  [[nodiscard]] std::vector<std::string> files_called(const std::string& id, const char* prefix) const {
     std::vector<std::string> names;
     for (const auto& file : std::filesystem::directory_iterator(home(id))) {
       const std::string name = file.path().filename().string();
-      if (name.starts_with("launched")) names.push_back(name);
+      if (name.starts_with(prefix)) names.push_back(name);
     }
     return names;
   }
+
+  static constexpr std::uint64_t some_trials = 150'000;
+  std::string said_ = (scratch.path() / "said").string();
 };
 
 TEST_F(LaunchedStudies, RunAsProgramsToTheSameBits) {
@@ -49,20 +102,52 @@ TEST_F(LaunchedStudies, RunAsProgramsToTheSameBits) {
   EXPECT_EQ(state.status, StudyStatus::succeeded) << state.failure.value_or("");
   EXPECT_EQ(state.completed, 3000U);
   expect_undisturbed(id, spec);
-  EXPECT_THAT(launched_files(id), ::testing::IsEmpty());
+  EXPECT_THAT(files_called(id, "launched"), ::testing::IsEmpty());
   EXPECT_TRUE(service->summary(id).complete);
 }
 
 #ifdef MPIRUN_PROGRAM
+const Words on_two_ranks{"env", "PATH=/usr/bin:/bin", MPIRUN_PROGRAM, "--allow-run-as-root", "--oversubscribe", "-n",
+                         "2"};
+
 TEST_F(LaunchedStudies, RunOnTheRanksOfAnMpiJob) {
-  begin_with({"env", "PATH=/usr/bin:/bin", MPIRUN_PROGRAM, "--allow-run-as-root", "--oversubscribe", "-n", "2"});
+  begin_with(on_two_ranks);
   const std::string spec = quick_spec(3000);
   const std::string id = service->submit(spec).state.id;
   const StudyState state = wait_for_end(id);
   EXPECT_EQ(state.status, StudyStatus::succeeded) << state.failure.value_or("");
   expect_undisturbed(id, spec);
 }
+
+TEST_F(LaunchedStudies, OnRanksExtendAStudyWithoutRunningItsTrialsAgain) {
+  expect_extension(on_two_ranks);
+}
 #endif
+
+TEST_F(LaunchedStudies, ExtendAStudyWithoutRunningItsTrialsAgain) {
+  expect_extension({});
+}
+
+TEST_F(LaunchedStudies, ExtendOneThatWasCancelled) {
+  begin_telling();
+  service->cancel_or_remove(begun_and_kept());
+  expect_continuation(quick_spec(some_trials + 1000));
+}
+
+TEST_F(LaunchedStudies, ExtendOneThatWasKilled) {
+  begin_telling();
+  const std::string id = begun_and_kept();
+  if (auto process = LaunchedProcess::find(home(id) / "launched.process")) process->send(SIGKILL);
+  wait_for_end(id);
+  expect_continuation(quick_spec(some_trials + 1000));
+}
+
+TEST_F(LaunchedStudies, GoOnFromTrialsThatRanInTheServiceItself) {
+  begin();
+  service->cancel_or_remove(begun_and_kept());
+  begin_telling();
+  expect_continuation(quick_spec(some_trials + 1000));
+}
 
 TEST_F(LaunchedStudies, FailWithWhatTheLauncherSaid) {
   EXPECT_THAT(failed_through({"no-such-launcher"}).failure.value_or(""),
