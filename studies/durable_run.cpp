@@ -173,10 +173,10 @@ FinishedTrials DurableRun::recover() {
   return std::move(recovery.finished);
 }
 
-StudyResult DurableRun::run(RunOptions options, Ranks* ranks, bool gather) {
+StudyResult DurableRun::run(RunOptions options, Ranks* ranks, const Sharing& sharing) {
   if (whole_) return *whole_;
   if (ranks != nullptr) {
-    return saying_what_is_kept(directory_, [&] { return run_together(options, *ranks, gather); });
+    return saying_what_is_kept(directory_, [&] { return run_together(options, *ranks, sharing); });
   }
   if (!directory_) return run_now(options);
   ShardSink sink(*directory_);
@@ -191,9 +191,9 @@ StudyResult DurableRun::run_now(const RunOptions& options) {
   return result;
 }
 
-StudyResult DurableRun::run_together(const RunOptions& options, Ranks& ranks, bool gather) {
+StudyResult DurableRun::run_together(const RunOptions& options, Ranks& ranks, const Sharing& sharing) {
   StudyDirectory* const directory = directory_ ? &*directory_ : nullptr;
-  RankedRun ranked = run_on_ranks(ranks, study_, options, std::move(finished_), directory, gather);
+  RankedRun ranked = run_on_ranks(ranks, study_, options, std::move(finished_), directory, sharing);
   tell_of(ranked.set_aside);
   return completed(study_, options, std::move(ranked));
 }

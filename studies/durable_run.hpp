@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "distributed/lead.hpp"
 #include "distributed/ranks.hpp"
 #include "store/study_directory.hpp"
 #include "study/run.hpp"
@@ -25,9 +26,9 @@ class DurableRun {
 
   /// Runs what is not finished yet. @throws as run_study() and run_range() do; a RunFailure says what is kept
   ///
-  /// @param ranks   those that run it together, this one leading; null: this process alone
-  /// @param gather  see run_on_ranks()
-  StudyResult run(RunOptions options, Ranks* ranks = nullptr, bool gather = false);
+  /// @param ranks    those that run it together, this one leading; null: this process alone
+  /// @param sharing  see run_on_ranks()
+  StudyResult run(RunOptions options, Ranks* ranks = nullptr, const Sharing& sharing = {});
 
   /// Writes the result, then removes the directory. @throws RunFailure saying what is kept
   void keep(const StudyResult& result);
@@ -41,7 +42,7 @@ class DurableRun {
   [[nodiscard]] std::string objection(const StoredStudy& stored, const std::filesystem::path& place) const;
   [[nodiscard]] bool has_nothing_left(const StoredStudy& stored) const;
   [[nodiscard]] StudyResult run_now(const RunOptions& options);
-  [[nodiscard]] StudyResult run_together(const RunOptions& options, Ranks& ranks, bool gather);
+  [[nodiscard]] StudyResult run_together(const RunOptions& options, Ranks& ranks, const Sharing& sharing);
 
   std::filesystem::path path_;
   std::filesystem::path parts_;

@@ -46,7 +46,7 @@ bits as a run that nothing interrupted; also with more "trials" in the spec than
 with, it begins at the beginning.
 
 --shard I/N runs the I-th of N parts of the study's trials, to be put together by steerstat merge; it is neither audited
-nor judged, and a "stop" in the spec is heeded by merge.
+nor judged, and a "stop" in the spec is heeded by merge. It takes one process, which knows of no ranks.
 
 A study by subset_simulation runs whole: its trials follow from those before.
 
@@ -72,7 +72,7 @@ struct Request {
   std::optional<std::string> shard;  ///< I/N; without it the whole study
   bool no_progress{false};
   bool resume{false};
-  bool gather{false};
+  Sharing sharing;
 };
 
 void check_outputs(const Request& request) {
@@ -124,9 +124,9 @@ StudyResult run_trials(const Study& study, const Request& request, InstructionSe
   options.simd = simd;
   options.stop = interruption.token();
   options.on_progress = [&display](const Progress& progress) { display.show(progress); };
-  if (durable != nullptr) return durable->run(options, ranks, request.gather);
+  if (durable != nullptr) return durable->run(options, ranks, request.sharing);
   if (ranks == nullptr) return run_study(study, options);
-  return completed(study, options, run_on_ranks(*ranks, study, options, {}, nullptr, true));
+  return completed(study, options, run_on_ranks(*ranks, study, options, {}, nullptr, request.sharing));
 }
 
 /// The kind of study that has no trials to keep.
@@ -268,7 +268,10 @@ ExitCode lead(Ranks& ranks, const Request& request) {
 }
 
 ExitCode run_alone_or_together(const Request& request) {
-  if (request.gather && !rank_in_environment()) {
+  if (request.sharing.gather && request.shard) {
+    throw BadUsage("--gather: a shard runs in one process, which writes its trials itself; leave it out");
+  }
+  if (request.sharing.gather && !rank_in_environment()) {
     throw BadUsage("--gather: this process is alone (it is for several, started by mpirun or srun); leave it out");
   }
   // A shard is a run of its own, even where one command starts several.
@@ -299,8 +302,14 @@ void add_run(CLI::App& program, ExitCode& exit_code) {
   command->add_flag("--resume", request->resume,
                     "Go on with an interrupted run into the same -o, or extend it to more trials");
   command->add_flag(
-      "--gather", request->gather,
+      "--gather", request->sharing.gather,
       "Under mpirun or srun: send trials to rank 0; else each rank writes beside the -o, which all share");
+  command
+      ->add_option("--ask-every", request->sharing.seconds_a_range,
+                   "Under mpirun or srun: seconds of work that a rank is given at a time; 2 for up to 200 ranks unless "
+                   "given, more for more")
+      ->type_name("S")
+      ->check(CLI::Range(0.001, 86400.0).description(""));
   command->add_flag("--no-progress", request->no_progress, "Do not show progress");
   command->footer(epilogue);
   command->callback([request, &exit_code] { exit_code = run_alone_or_together(*request); });

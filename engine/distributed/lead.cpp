@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/elapsed.hpp"
 #include "core/errors.hpp"
 #include "distributed/job.hpp"
 #include "distributed/prefix_watch.hpp"
@@ -20,10 +21,6 @@ namespace steerstat {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// Finished trials in a row.
 struct Piece {
@@ -45,22 +42,24 @@ FinishedTrials in_order(std::vector<Piece> pieces) {
 class Leader {
  public:
   Leader(Ranks& ranks, const Study& study, const RunOptions& options, const FinishedTrials& earlier,
-         StudyDirectory* directory, bool gather)
+         StudyDirectory* directory, const Sharing& sharing)
       : ranks_(ranks),
         study_(study),
         options_(options),
         directory_(directory),
-        writes_(directory != nullptr && gather),
-        keeps_pieces_(directory == nullptr || gather),
+        writes_(directory != nullptr && sharing.gather),
+        keeps_pieces_(directory == nullptr || sharing.gather || study.store != Store::all),
         trials_(Plan(study).trials()),
-        dealer_(earlier.ranges(), trials_, unit_of(study), static_cast<unsigned>(ranks.count())),
+        dealer_(earlier.ranges(), trials_, unit_of(study), static_cast<unsigned>(ranks.count()), size_of(sharing)),
         watch_(study, earlier.trials),
         workers_(static_cast<std::size_t>(ranks.count())) {
     progress_.requested = trials_;
     progress_.earlier = trials_ - dealer_.left();
     job_.spec = canonical_spec(study);
-    if (directory != nullptr && !gather) job_.directory = std::filesystem::absolute(directory->path()).string();
-    job_.send_outcomes = keeps_pieces_ || study.stop.has_value();
+    if (directory != nullptr && !sharing.gather) {
+      job_.directory = std::filesystem::absolute(directory->path()).string();
+    }
+    job_.send_outcomes = sends_outcomes();
   }
 
   /// Leads until no rank works any more.
@@ -202,6 +201,16 @@ class Leader {
     }
   }
 
+  [[nodiscard]] bool sends_outcomes() const { return keeps_pieces_ || study_.stop.has_value(); }
+
+  /// Rows are a message's, or at least in a rank's memory; a sketch is as large of any number of trials.
+  [[nodiscard]] RangeSize size_of(const Sharing& sharing) const {
+    RangeSize size{sharing.seconds_a_range.value_or(usual_seconds_a_range(ranks_.count())), std::uint64_t{1} << 18};
+    if (!sends_outcomes()) size.most_trials = std::uint64_t{1} << 20;
+    if (study_.store != Store::all) size.most_trials = std::uint64_t{1} << 40;
+    return size;
+  }
+
   /// A sketch can take any draws, and no trial twice; rows any blocks, where a trial may run again.
   static std::uint64_t unit_of(const Study& study) {
     return study.store == Store::all ? block_size(study) : Plan(study).cells();
@@ -212,7 +221,7 @@ class Leader {
   const RunOptions& options_;
   StudyDirectory* const directory_;
   const bool writes_;        // outcomes into the directory
-  const bool keeps_pieces_;  // outcomes in memory
+  const bool keeps_pieces_;  // outcomes in memory; of sketches always, so that none has to be read again at the end
   const std::uint64_t trials_;
   RangeDealer dealer_;
   PrefixWatch watch_;
@@ -233,9 +242,13 @@ class Leader {
 
 }  // namespace
 
+double usual_seconds_a_range(int ranks) {
+  return std::max(2.0, ranks / 100.0);
+}
+
 RankedRun run_on_ranks(Ranks& ranks, const Study& study, const RunOptions& options, FinishedTrials earlier,
-                       StudyDirectory* directory, bool gather) {
-  Leader leader(ranks, study, options, earlier, directory, gather);
+                       StudyDirectory* directory, const Sharing& sharing) {
+  Leader leader(ranks, study, options, earlier, directory, sharing);
   {
     // Ends by itself: lead() returns or throws once every rank was told that it is over, this one too.
     const std::jthread worker(

@@ -5,9 +5,7 @@
 namespace steerstat {
 namespace {
 
-constexpr double seconds_a_range = 2.0;                        // long against a message, short against a run
-constexpr std::uint64_t most_trials = std::uint64_t{1} << 18;  // what a message carries
-constexpr std::uint64_t first_blocks_a_thread = 4;             // while a rank's rate is not known
+constexpr std::uint64_t first_blocks_a_thread = 4;  // while a rank's rate is not known
 
 /// The blocks that anything is missing of, joined where they touch.
 std::vector<TrialRange> ranges_missing(std::span<const TrialRange> known, std::uint64_t trials, std::uint64_t block) {
@@ -32,16 +30,17 @@ std::vector<TrialRange> ranges_missing(std::span<const TrialRange> known, std::u
 
 }  // namespace
 
-RangeDealer::RangeDealer(std::span<const TrialRange> known, std::uint64_t trials, std::uint64_t block, unsigned ranks)
-    : block_(block), ranks_(ranks), ranges_(ranges_missing(known, trials, block)) {}
+RangeDealer::RangeDealer(std::span<const TrialRange> known, std::uint64_t trials, std::uint64_t block, unsigned ranks,
+                         const RangeSize& size)
+    : block_(block), ranks_(ranks), size_(size), ranges_(ranges_missing(known, trials, block)) {}
 
 std::optional<TrialRange> RangeDealer::deal(unsigned threads, double rate) {
   if (dealt_ == ranges_.size()) return std::nullopt;
-  const std::uint64_t of_time = rate > 0.0 ? static_cast<std::uint64_t>(std::min(rate * seconds_a_range, 1e15)) / block_
+  const std::uint64_t of_time = rate > 0.0 ? static_cast<std::uint64_t>(std::min(rate * size_.seconds, 1e15)) / block_
                                            : first_blocks_a_thread * threads;
   // Half of an even share of what is left: the last ranges are short, whoever is slow.
   const std::uint64_t fair = left() / block_ / (2 * std::uint64_t{ranks_});
-  const std::uint64_t most = std::max(most_trials / block_, std::uint64_t{1});
+  const std::uint64_t most = std::max(size_.most_trials / block_, std::uint64_t{1});
   const std::uint64_t blocks = std::clamp(std::min(of_time, fair), std::min<std::uint64_t>(threads, most), most);
   TrialRange& next = ranges_[dealt_];
   const TrialRange range{next.begin, std::min(next.begin + blocks * block_, next.end)};

@@ -34,18 +34,17 @@ std::string host_name() {
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "an unknown machine";
 }
 
-/// Writes what a rank finishes into the study's directory, which the leader holds the lock of.
+/// Writes the rows that a rank finishes into the study's directory, which the leader holds the lock of.
 class SharedDirectorySink final : public OutcomeSink {
  public:
-  SharedDirectorySink(std::filesystem::path directory, const Study& study)
-      : directory_(std::move(directory)), origin_(origin_of(study)) {}
+  SharedDirectorySink(std::filesystem::path directory, ShardOrigin origin)
+      : directory_(std::move(directory)), origin_(std::move(origin)) {}
 
   void take(std::uint64_t begin, std::span<const TrialOutcome> outcomes) override {
     const Clock::time_point now = Clock::now();
     write_shard(directory_, origin_, begin, outcomes, std::chrono::duration<double>(now - last_).count());
     last_ = now;
   }
-  void take_sketched(const FinishedTrials& piece) override { write_sketched_part(directory_, origin_, piece); }
 
  private:
   const std::filesystem::path directory_;
@@ -56,14 +55,15 @@ class SharedDirectorySink final : public OutcomeSink {
 class Worker {
  public:
   Worker(Ranks& ranks, const WorkOptions& options, const Job& job)
-      : ranks_(ranks), job_(job), study_(decode_study(job.spec, {})) {
+      : ranks_(ranks), job_(job), study_(decode_study(job.spec, {})), origin_(origin_of(study_)) {
     run_options_.threads = options.threads;
     run_options_.simd = options.simd;
     run_options_.stop = options.stop;
     run_options_.on_progress = [this](const Progress& progress) { tell_progress(progress); };
     if (!job_.directory.empty()) {
       require_shared(job_.directory);
-      run_options_.sink = &sink_.emplace(job_.directory, study_);
+      // A sketch is as large of few trials as of many: one of the whole range is written, at its end.
+      if (study_.store == Store::all) run_options_.sink = &sink_.emplace(job_.directory, origin_);
     }
   }
 
@@ -93,14 +93,19 @@ class Worker {
     const std::uint64_t finished = result.finished();
     MessageWriter message;
     message.put(FinishedRange{range.begin, finished, result.wall_s});
-    if (job_.send_outcomes && !result.sketch) {
+    if (result.sketch && finished > 0) {
+      keep_sketched({std::move(result.trials), result.wall_s, std::move(result.sketch)}, message);
+    } else if (job_.send_outcomes) {
       message.put_all(std::span(result.trials.outcomes));
-    } else if (job_.send_outcomes && finished > 0) {
-      const FinishedTrials piece{std::move(result.trials), result.wall_s, std::move(result.sketch)};
-      const std::vector<std::byte> part = sketched_part_bytes(origin_of(study_), piece);
-      message.put_all(std::span(part));
     }
     ranks_.send_to_leader(MessageKind::finished, message.bytes());
+  }
+
+  void keep_sketched(const FinishedTrials& part, MessageWriter& message) const {
+    if (!job_.directory.empty()) write_sketched_part(job_.directory, origin_, part);
+    if (!job_.send_outcomes) return;
+    const std::vector<std::byte> bytes = sketched_part_bytes(origin_, part);
+    message.put_all(std::span(bytes));
   }
 
   void tell_progress(const Progress& progress) {
@@ -113,6 +118,7 @@ class Worker {
   Ranks& ranks_;
   const Job job_;
   const Study study_;
+  const ShardOrigin origin_;
   std::optional<SharedDirectorySink> sink_;
   RunOptions run_options_;
   Clock::time_point last_progress_;

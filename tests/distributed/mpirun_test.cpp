@@ -146,6 +146,40 @@ TEST_F(Mpirun, AKilledRankCostsOnlyItsUnfinishedBlocks) {
   EXPECT_TRUE(datasets_of(out_) == expected);
 }
 
+TEST_F(Mpirun, AShardIsARunOfItsOwnWhateverStartsIt) {
+  set_spec(spec_of(2000));
+  const auto expected = alone();
+  const Words shards{scratch_ / "1.h5", scratch_ / "2.h5"};
+  // Two programs in one job, in the words of mpirun: each of one rank.
+  Words both{"--allow-run-as-root", "--oversubscribe"};
+  for (const std::size_t shard : {1U, 2U}) {
+    for (const std::string& word : {std::string("-n"), std::string("1"), std::string(STEERSTAT_PROGRAM),
+                                    std::string("run"), spec_, std::string("--no-progress"), std::string("--shard"),
+                                    std::to_string(shard) + "/2", std::string("-o"), shards[shard - 1]}) {
+      both.push_back(word);
+    }
+    if (shard == 1) both.emplace_back(":");
+  }
+  const Ending ending = Process(MPIRUN_PROGRAM, both, surroundings()).wait();
+  ASSERT_EQ(ending.exit_code, 0) << ending.err;
+  ASSERT_EQ(steerstat({"merge", shards[1], shards[0], "-o", out_}).exit_code, 0);
+  EXPECT_TRUE(datasets_of(out_) == expected);
+}
+
+TEST_F(Mpirun, RanksThatAreGivenTheSameShardAreToldAndRunItOnce) {
+  set_spec(spec_of(1000000000, R"(, "store": "summary")"));  // under way whenever the other rank comes
+  const Ending ending = mpirun(2, {"--shard", "1/2", "-o", out_});
+  EXPECT_EQ(ending.exit_code, 4);
+  EXPECT_EQ(count_in(ending.err, "steerstat: " + out_ + ".parts is in use by another process"), 1) << ending.err;
+}
+
+TEST_F(Mpirun, AShardGathersNothing) {
+  set_spec(spec_of(2000));
+  const Ending ending = mpirun(1, {"--shard", "1/2", "-o", out_, "--gather"});
+  EXPECT_EQ(ending.exit_code, 2);
+  EXPECT_THAT(ending.err, HasSubstr("steerstat: --gather: a shard runs in one process"));
+}
+
 TEST_F(Mpirun, EveryRankEndsWithTheExitCodeAndOneSpeaks) {
   set_spec(spec_of(300, R"(, "gates": [{"metric": "peak_stroke", "expr": "max < 0"}])"));
   EXPECT_EQ(mpirun(2, {}).exit_code, 1);

@@ -48,10 +48,16 @@ TEST(RangeDealer, ARangeTakesARankAboutTwoSecondsAndLessTowardsTheEnd) {
   })) << "they never grow";
 }
 
-TEST(RangeDealer, NoRangeIsMoreThanAMessageCarries) {
-  RangeDealer dealer({}, std::uint64_t{1} << 40, 128, 1);
-  const TrialRange range = *dealer.deal(1024, 1e15);
-  EXPECT_EQ(range.end - range.begin, std::uint64_t{1} << 18);
+TEST(RangeDealer, ARangeIsAsLongAsAskedForButHasNoMoreTrialsThanItMay) {
+  RangeDealer dealer({}, std::uint64_t{1} << 40, 128, 1, {20.0, std::uint64_t{1} << 18});
+  const auto trials_at = [&](double rate) {
+    const TrialRange range = *dealer.deal(4, rate);
+    return range.end - range.begin;
+  };
+  EXPECT_EQ(trials_at(128.0), 20U * 128U);
+  EXPECT_EQ(trials_at(13107.1), (std::uint64_t{1} << 18) - 128U);
+  EXPECT_EQ(trials_at(13107.2), std::uint64_t{1} << 18);
+  EXPECT_EQ(trials_at(1e15), std::uint64_t{1} << 18);
 }
 
 TEST(RangeDealer, DealsNothingAfterAHalt) {

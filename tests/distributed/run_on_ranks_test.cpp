@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -51,7 +52,7 @@ class RunOnRanks : public ::testing::Test {
     } const end{leader};
     RunOptions options;
     options.threads = 1;
-    return run_on_ranks(leader, study, options, std::move(earlier), directory, gather);
+    return run_on_ranks(leader, study, options, std::move(earlier), directory, {gather, seconds_a_range_});
   }
 
   static void expect_same(const StudyResult& a, const StudyResult& b) {
@@ -62,6 +63,7 @@ class RunOnRanks : public ::testing::Test {
     EXPECT_EQ(a.audit.trials.size(), b.audit.trials.size());
   }
 
+  std::optional<double> seconds_a_range_{};
   fs::path path_ = fs::path(::testing::TempDir()) / ("ranks-" + std::to_string(getpid()) + ".parts");
 };
 
@@ -108,6 +110,26 @@ TEST_F(RunOnRanks, OfAStudyThatKeepsNoRowsGivesTheSketchOfOneProcess) {
     EXPECT_EQ(directory.recover().finished.count(), 3000U);
     directory.remove();
   }
+}
+
+TEST_F(RunOnRanks, GivesTheSameBitsHoweverMuchARankIsGivenAtATime) {
+  for (const char* store : {"all", "summary"}) {
+    const Study study = study_of(6000, std::string(R"(, "store": ")") + store + "\"");
+    const StudyResult alone = run_study(study, {});
+    for (const double seconds : {0.001, 3600.0}) {
+      seconds_a_range_ = seconds;
+      const StudyResult together = completed(study, {}, run(2, study));
+      EXPECT_TRUE(together.sketch == alone.sketch);
+      expect_same(together, alone);
+    }
+  }
+}
+
+TEST(SecondsARange, AreTwoUnlessRanksWouldAskMoreThanAHundredTimesASecond) {
+  EXPECT_EQ(usual_seconds_a_range(1), 2.0);
+  EXPECT_EQ(usual_seconds_a_range(200), 2.0);
+  EXPECT_EQ(usual_seconds_a_range(201), 2.01);
+  EXPECT_EQ(usual_seconds_a_range(1000), 10.0);
 }
 
 TEST_F(RunOnRanks, RunsOnlyWhatIsMissing) {
