@@ -34,6 +34,7 @@ struct Phase {
   double pace{1.0};                ///< align: how much quicker than (10) it is; kp takes its square, kd itself
   double amplitude{0.0};           ///< [m] A of (11), cycles only
   double active_tolerance{-1.0};   ///< align: guard active_error - this; negative: no such guard
+  double ceiling{unbounded};       ///< [m/s^2] align, beside active_tolerance: guard this - |a|
   double q2_low{-unbounded};       ///< [rad] drift: guard q2 - q2_low
   double q2_high{unbounded};       ///< [rad] drift: guard q2_high - q2
   double direction{1.0};           ///< +1 or -1: the sign of q2_dot that the speed guard watches

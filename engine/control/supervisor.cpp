@@ -138,11 +138,12 @@ Phase steer(const State<double>& x, const PassiveJoint& joint, const Controller&
   return swing(joint, controller);  // rule 7
 }
 
-void count(PhaseKind kind, Memory& memory) {
-  memory.last = kind;
-  switch (kind) {
+void note(const Phase& phase, Memory& memory) {
+  memory.last = phase.kind;
+  switch (phase.kind) {
     case PhaseKind::align:
       ++memory.alignments;
+      memory.pace = phase.pace;
       break;
     case PhaseKind::contraction:
       ++memory.cycles;
@@ -162,7 +163,7 @@ std::optional<Status> decide(double t, const State<double>& x, const Controller&
                              Memory& memory, Phase& phase) {
   const auto run = [&](const Phase& chosen) {
     phase = chosen;
-    count(chosen.kind, memory);
+    note(chosen, memory);
     return std::optional<Status>{};
   };
   const double active = active_error(x, goal);
@@ -178,6 +179,9 @@ std::optional<Status> decide(double t, const State<double>& x, const Controller&
   if (memory.last && realigns_after(*memory.last, realignment) && !aligned) return run(align(x, controller, goal));
 
   ++memory.decisions;
+  // This counts as a decision, so that a trial whose aligns are cut again and again ends.
+  const bool cut = robust && memory.last == PhaseKind::align && !aligned;
+  if (cut && aligns_too_fast(x, memory.pace, controller, goal)) return run(align(x, controller, goal));
   if (robust) learn(x, controller, goal, memory.experience);
   if (passive_error(x, goal) <= controller.convergence.tolerance) {  // rule 2
     if (active <= controller.convergence.active_tolerance) return Status::converged;

@@ -19,6 +19,7 @@ struct Memory {
   std::uint32_t cycles{0};          ///< contraction cycles started
   std::uint32_t swings{0};          ///< swings started
   std::uint32_t alignments{0};      ///< alignments started
+  double pace{1.0};                 ///< of the last align
   Experience experience{};          ///< robust policy: what it learned of the trial
 
   friend bool operator==(const Memory&, const Memory&) = default;

@@ -81,19 +81,21 @@ State<Real> derivative(const ClosedLoop<Real>& loop, const Real& a, const State<
 }
 
 /// How many guards a phase has, used or not.
-inline constexpr std::size_t guard_count = 4;
+inline constexpr std::size_t guard_count = 5;
 
 /// The guards of `phase` as functions of the state; positive where they hold off, infinite where unused.
 ///
-/// @return (guard_count) the active error [m, m/s], q2 above its low bound [rad], q2 below its high bound [rad], and
-/// the
-///         speed above its floor [rad/s]; see Phase for when they fire
-inline std::array<double, guard_count> guards(const Phase& phase, double q1_goal, const State<double>& x) {
-  const double e = x.q1 + phase.q1_offset - q1_goal;
+/// @return (guard_count) the active error [m, m/s], q2 above its low bound [rad], q2 below its high bound [rad], the
+///         speed above its floor [rad/s], and |a| below its ceiling [m/s^2]; see Phase for when they fire
+inline std::array<double, guard_count> guards(const ClosedLoop<double>& loop, const Phase& phase,
+                                              const State<double>& x) {
+  const double e = x.q1 + phase.q1_offset - loop.q1_goal;
   const double v = x.q1_dot + phase.q1_dot_offset;
   const double active =
       phase.active_tolerance < 0.0 ? Phase::unbounded : std::sqrt(e * e + v * v) - phase.active_tolerance;
-  return {active, x.q2 - phase.q2_low, phase.q2_high - x.q2, phase.direction * x.q2_dot - phase.speed_floor};
+  const double below =
+      phase.ceiling < Phase::unbounded ? phase.ceiling - std::abs(align_acceleration(loop, phase, x)) : phase.ceiling;
+  return {active, x.q2 - phase.q2_low, phase.q2_high - x.q2, phase.direction * x.q2_dot - phase.speed_floor, below};
 }
 
 }  // namespace steerstat

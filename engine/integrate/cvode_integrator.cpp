@@ -104,7 +104,7 @@ constexpr std::size_t kink = guard_count;
 int root_functions(realtype t, N_Vector y, realtype* g, void* user) {
   const auto& context = *static_cast<const PhaseContext*>(user);
   const State<double> x = state_of(y);
-  const std::array<double, guard_count> values = guards(context.phase, context.loop.q1_goal, x);
+  const std::array<double, guard_count> values = guards(context.loop, context.phase, x);
   for (std::size_t i = 0; i < guard_count; ++i) {
     // CVODE puts a function that starts at exactly 0 out of action, and would leave it so in phases to come.
     g[i] = (t == 0.0 && values[i] == 0.0) ? -std::numeric_limits<double>::min() : values[i];
@@ -237,11 +237,13 @@ bool CvodeIntegrator::Solver::restart(double now, double duration) {
 }
 
 CvodeIntegrator::Solver::Moment CvodeIntegrator::Solver::moment(double t, const State<double>& x) const {
-  Moment moment{t, x, guards(user.phase, user.loop.q1_goal, x), {}};
+  Moment moment{t, x, guards(user.loop, user.phase, x), {}};
   if (user.phase.kind == PhaseKind::align || user.phase.kind == PhaseKind::drift) {
     const State<double> rate = closed_loop_rate(user, t, x);
     const double active = std::sqrt(rate.q1 * rate.q1 + rate.q1_dot * rate.q1_dot);
-    moment.rates = {active, std::abs(rate.q2), std::abs(rate.q2), std::abs(rate.q2_dot)};
+    const double kp = user.loop.kp * user.phase.pace * user.phase.pace, kd = user.loop.kd * user.phase.pace;
+    moment.rates = {active, std::abs(rate.q2), std::abs(rate.q2), std::abs(rate.q2_dot),
+                    std::abs(kp * rate.q1 + kd * rate.q1_dot)};
   }
   return moment;
 }
@@ -266,7 +268,7 @@ std::optional<double> CvodeIntegrator::Solver::find_crossing(const Moment& befor
     const bool apart = before.guards[i] > 0.0 && after.guards[i] > 0.0 && before.guards[i] + after.guards[i] > reach;
     if (armed[i] && apart) continue;
     if (!step) step = step_polynomial(before.t, to);
-    const std::optional<double> crossing = first_crossing(*step, user.phase, user.loop.q1_goal, i, armed[i]);
+    const std::optional<double> crossing = first_crossing(*step, user.loop, user.phase, i, armed[i]);
     if (crossing && (!first || *crossing < *first)) first = crossing;
   }
   const bool same_as_root = rooted && first && *first > after.t - guard_precision;

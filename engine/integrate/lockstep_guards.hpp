@@ -155,6 +155,7 @@ inline Pack position_slack(Pack V0, Pack V1, double slack, double width) {
 /// The guard of align: sqrt(E^2 + V^2) - radius.
 struct AlignGuard {
   static constexpr int joint = 0;
+  static constexpr bool turns_back = false;
   double radius;
 
   [[nodiscard]] Evidence judge(const Samples& s, double slack, double width) const {
@@ -181,9 +182,39 @@ struct AlignGuard {
   }
 };
 
+/// A guard of align: ceiling - sign * (kp * position + kd * velocity).
+struct CeilingGuard {
+  static constexpr int joint = 0;
+  static constexpr bool turns_back = true;
+  double kp, kd;
+  double sign;
+  double ceiling;
+
+  [[nodiscard]] Evidence judge(const Samples& s, double slack, double width) const {
+    Evidence evidence;
+    for (int i = 0; i < Samples::parts; i += Pack::lanes) {
+      const Pack V0 = load(s.before.velocity + i), V1 = load(s.after.velocity + i);
+      const Pack allowance = fma(Pack(std::abs(kp)), position_slack(V0, V1, slack, width), Pack(std::abs(kd) * slack));
+      const Pack g0 = Pack(ceiling) - Pack(sign) * fma(Pack(kp), load(s.before.position + i), Pack(kd) * V0);
+      const Pack g1 = Pack(ceiling) - Pack(sign) * fma(Pack(kp), load(s.after.position + i), Pack(kd) * V1);
+      const Mask positive0 = Pack(0.0) < g0;
+      const Mask positive1 = Pack(0.0) < g1;
+      evidence.crossing |= bits(positive0 & !positive1) << i;
+      evidence.uncertain |= bits(positive0 & positive1 & (min(g0, g1) <= allowance)) << i;
+    }
+    return evidence;
+  }
+  [[nodiscard]] double value(double position, double velocity) const {
+    return ceiling - sign * std::fma(kp, position, kd * velocity);
+  }
+  [[nodiscard]] double rate(const Motion& m) const { return -sign * std::fma(kp, m.velocity, kd * m.acceleration); }
+  [[nodiscard]] double curvature(const Motion& m) const { return -sign * std::fma(kp, m.acceleration, kd * m.jerk); }
+};
+
 /// A guard of drift: sign * position - bound, or sign * velocity - bound.
 struct DriftGuard {
   static constexpr int joint = 1;
+  static constexpr bool turns_back = false;
   bool of_velocity;
   double sign;
   double bound;
@@ -223,6 +254,8 @@ struct Crossing {
 /// The guard's root in (low, high], where it goes from positive to <= 0, to 1e-10 of the part and so to rounding in
 /// the state: Halley's method kept in the bracket.
 ///
+/// A guard that turns back may do so next to its root, or rise out of the bracket's end; changes are small there too.
+///
 /// @param g_low, g_high  the guard at the bracket's ends
 /// @param bend           its second difference over parts of the bracket's width, for the first guess
 template <class Guard>
@@ -239,12 +272,13 @@ template <class Guard>
     const Motion& watched = out.near.joint[Guard::joint];
     const double g = guard.value(watched.position, watched.velocity);
     (g > 0.0 ? low : high) = t;
-    const double rate = guard.rate(watched);
-    const double change = 2.0 * g * rate / (2.0 * rate * rate - g * guard.curvature(watched));
+    const double rate = guard.rate(watched), bent = g * guard.curvature(watched);
+    const double change = 2.0 * g * rate / (2.0 * rate * rate - bent);
     double next = t - change;
     // Convergence is cubic: what is left after a change this small is 1e-8 of the part, times how curved it is,
     // squared.
-    if (std::abs(change) <= 2e-3 * width) {
+    const bool falls = !Guard::turns_back || (rate < 0.0 && std::abs(bent) <= rate * rate);
+    if (falls && std::abs(change) <= 2e-3 * width) {
       out.t = std::clamp(next, low, high);
       return;
     }
@@ -308,19 +342,23 @@ template <class Guard>
   const bool aligning = lanes.radius[lane] >= 0.0;
   Samples samples;
   sample(motion.joint[aligning ? 0 : 1], 0.0, h, samples);
-  if (aligning) {
-    first_crossing(AlignGuard{lanes.radius[lane]}, motion, samples, 0.0, h, bend, armed, 0, out);
-    return;
-  }
-  const auto consider = [&](const DriftGuard& guard) {
-    if (!(std::abs(guard.bound) < Phase::unbounded)) return;
+  const auto consider = [&](const auto& guard, double bound) {
+    if (!(std::abs(bound) < Phase::unbounded)) return;
     Crossing crossing;
     first_crossing(guard, motion, samples, 0.0, h, bend, armed, 0, crossing);
     if (crossing.t < out.t) out = crossing;
   };
-  consider({false, 1.0, lanes.q2_low[lane]});
-  consider({false, -1.0, -lanes.q2_high[lane]});
-  consider({true, lanes.direction[lane], lanes.speed_floor[lane]});
+  if (aligning) {
+    first_crossing(AlignGuard{lanes.radius[lane]}, motion, samples, 0.0, h, bend, armed, 0, out);
+    const double kp = lanes.kp[lane], kd = lanes.kd[lane], ceiling = lanes.ceiling[lane];
+    consider(CeilingGuard{kp, kd, 1.0, ceiling}, ceiling);
+    consider(CeilingGuard{kp, kd, -1.0, ceiling}, ceiling);
+    return;
+  }
+  const auto consider_drift = [&](const DriftGuard& guard) { consider(guard, guard.bound); };
+  consider_drift({false, 1.0, lanes.q2_low[lane]});
+  consider_drift({false, -1.0, -lanes.q2_high[lane]});
+  consider_drift({true, lanes.direction[lane], lanes.speed_floor[lane]});
 }
 
 }  // namespace steerstat::STEERSTAT_ISA

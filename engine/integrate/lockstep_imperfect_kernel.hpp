@@ -6,6 +6,7 @@ namespace steerstat::STEERSTAT_ISA {
 /// The guard of align on what is read: sqrt(E^2 + (V + read_V)^2) - radius.
 struct ReadAlignGuard {
   static constexpr int joint = 0;
+  static constexpr bool turns_back = false;
   double radius;
   double read_V;
 
@@ -110,11 +111,14 @@ class ImperfectKernel final : public LockstepEngine {
     }
     const double radius = phase.active_tolerance < 0.0 ? -1.0 : std::abs(K) * phase.active_tolerance;
     lanes.radius[i] = radius;
+    const double ceiling = std::abs(K) * phase.ceiling;
+    lanes.ceiling[i] = ceiling;
     lanes.q2_low[i] = phase.q2_low;
     lanes.q2_high[i] = phase.q2_high;
     lanes.direction[i] = phase.direction;
     lanes.speed_floor[i] = phase.speed_floor;
-    const bool armed = (radius < 0.0 || E * E + (V + read_V) * (V + read_V) > radius * radius) && x.q2 > phase.q2_low &&
+    const bool armed = (radius < 0.0 || E * E + (V + read_V) * (V + read_V) > radius * radius) &&
+                       std::abs(lanes.kp[i] * E + lanes.kd[i] * (V + read_V)) < ceiling && x.q2 > phase.q2_low &&
                        x.q2 < phase.q2_high && phase.direction * x.q2_dot > phase.speed_floor;
     armed_ = (armed_ & ~bit(lane)) | (armed ? bit(lane) : 0);
   }
@@ -280,18 +284,24 @@ class ImperfectKernel final : public LockstepEngine {
     const double bend = lanes.bend[i] / (h * h);
     const bool armed = (armed_ & bit(lane)) != 0;
     const LaneMotion motion = motion_of(lanes, i);
-    if (lanes.radius[i] >= 0.0) {
-      return locate(ReadAlignGuard{lanes.radius[i], lanes.read_V[i]}, motion, h, bend, armed);
-    }
     Crossing first;
-    const auto consider = [&](const DriftGuard& guard) {
-      if (!(std::abs(guard.bound) < Phase::unbounded)) return;
+    const auto consider = [&](const auto& guard, double bound) {
+      if (!(std::abs(bound) < Phase::unbounded)) return;
       const Crossing crossing = locate(guard, motion, h, bend, armed);
       if (crossing.t < first.t) first = crossing;
     };
-    consider({false, 1.0, lanes.q2_low[i]});
-    consider({false, -1.0, -lanes.q2_high[i]});
-    consider({true, lanes.direction[i], lanes.speed_floor[i]});
+    if (lanes.radius[i] >= 0.0) {
+      consider(ReadAlignGuard{lanes.radius[i], lanes.read_V[i]}, lanes.radius[i]);
+      const double kp = lanes.kp[i], kd = lanes.kd[i], ceiling = lanes.ceiling[i];
+      const double read = kd * lanes.read_V[i];  // what reading adds to b
+      consider(CeilingGuard{kp, kd, 1.0, ceiling - read}, ceiling);
+      consider(CeilingGuard{kp, kd, -1.0, ceiling + read}, ceiling);
+      return first;
+    }
+    const auto consider_drift = [&](const DriftGuard& guard) { consider(guard, guard.bound); };
+    consider_drift({false, 1.0, lanes.q2_low[i]});
+    consider_drift({false, -1.0, -lanes.q2_high[i]});
+    consider_drift({true, lanes.direction[i], lanes.speed_floor[i]});
     return first;
   }
 

@@ -15,6 +15,7 @@ struct ImperfectLanes {
   Row cycle[5];                                 ///< b = sum of cycle[i] t^(i + 1)
   Row mode;                                     ///< where the force stands, such as within_limits
   Row radius;                                   ///< align: the guard's tolerance times |K|; negative: no such guard
+  Row ceiling;                                  ///< align: the bound on |b|; infinite: no such guard
   Row q2_low, q2_high, direction, speed_floor;  ///< drift: the guards of Phase
 
   // Of the last step: where it began, its size, bounds on h^2 |second derivative| of the velocity that the guards watch
@@ -97,15 +98,17 @@ Pack allowed_step(const ImperfectExpansion& series, const ImperfectConstants<Pac
 inline Mask proves_quiet(const ImperfectLanes& lanes, Pack E, Pack q2, Pack V, Pack w, Pack velocity_bend,
                          Pack position_bend) {
   const Pack radius = load(lanes.radius);
-  const Pack read_V = load(lanes.read_V);
+  const Pack read_V0 = load(lanes.V) + load(lanes.read_V), read_V = V + load(lanes.read_V);
   const Pack eighth(1.0 / 8);
-  const Mask far = (radius < Pack(0.0)) | chord_avoids(load(lanes.E), load(lanes.V) + read_V, E, V + read_V,
-                                                       radius + (velocity_bend + position_bend) * eighth);
+  const Mask far = (radius < Pack(0.0)) |
+                   chord_avoids(load(lanes.E), read_V0, E, read_V, radius + (velocity_bend + position_bend) * eighth);
+  const Mask below = stays_below(load(lanes.kp), load(lanes.kd), load(lanes.E), read_V0, E, read_V, position_bend,
+                                 velocity_bend, load(lanes.ceiling));
   const Pack q20 = load(lanes.q2), w0 = load(lanes.w), direction = load(lanes.direction);
   const Pack slack = position_bend * eighth;
   const Mask inside = (load(lanes.q2_low) < min(q20, q2) - slack) & (max(q20, q2) + slack < load(lanes.q2_high));
   const Mask fast = load(lanes.speed_floor) < fnma(velocity_bend, eighth, min(direction * w0, direction * w));
-  return far & inside & fast;
+  return far & below & inside & fast;
 }
 
 /// Advances every lane by one step of its own size, as the advance() without imperfections does.

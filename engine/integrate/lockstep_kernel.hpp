@@ -89,13 +89,17 @@ class Kernel final : public LockstepEngine {
     }
     const double radius = phase.active_tolerance < 0.0 ? -1.0 : std::abs(K) * phase.active_tolerance;
     lanes.radius[i] = radius;
+    const double ceiling = std::abs(K) * phase.ceiling;
+    lanes.ceiling[i] = ceiling;
     lanes.q2_low[i] = phase.q2_low;
     lanes.q2_high[i] = phase.q2_high;
     lanes.direction[i] = phase.direction;
     lanes.speed_floor[i] = phase.speed_floor;
-    const bool armed = (radius < 0.0 || E * E + V * V > radius * radius) && x.q2 > phase.q2_low &&
+    const bool armed = (radius < 0.0 || E * E + V * V > radius * radius) &&
+                       std::abs(lanes.kp[i] * E + lanes.kd[i] * V) < ceiling && x.q2 > phase.q2_low &&
                        x.q2 < phase.q2_high && phase.direction * x.q2_dot > phase.speed_floor;
     armed_ = (armed_ & ~bit(lane)) | (armed ? bit(lane) : 0);
+    capped_ = (capped_ & ~bit(lane)) | (ceiling < Phase::unbounded ? bit(lane) : 0);
   }
 
   void vacate(int lane) override {
@@ -114,6 +118,7 @@ class Kernel final : public LockstepEngine {
       watch |= at_its_place(report.watch);
       unsound |= at_its_place(report.unsound);
       stalled |= at_its_place(report.stalled);
+      if ((capped_ & at_its_place(all_lanes)) != 0) watch |= at_its_place(may_reach_ceiling(packs_[pack]));
     }
     counters_.steps += pack_count;
     counters_.lane_slots += static_cast<std::uint64_t>(lanes());
@@ -162,6 +167,7 @@ class Kernel final : public LockstepEngine {
   /// Long trials amplify what a step gets wrong. With this share of the tolerance for a step's last terms, settling
   /// times of the combined study come out right to a hundred tolerances in the median.
   static constexpr double margin = 0.125;
+  static constexpr std::uint32_t all_lanes = ~std::uint32_t{0} >> (32 - Pack::lanes);  // of a pack
 
   struct Trial {
     ClosedLoop<double> loop;
@@ -275,7 +281,8 @@ class Kernel final : public LockstepEngine {
 
   double log2_tolerance_;
   std::uint64_t seated_{0};
-  std::uint64_t armed_{0};  ///< lanes whose guards have all been positive in this phase
+  std::uint64_t armed_{0};   ///< lanes whose guards have all been positive in this phase
+  std::uint64_t capped_{0};  ///< lanes whose phase has a ceiling
   LanesType packs_[pack_count]{};
   Trial trials_[pack_count * Pack::lanes]{};
 };

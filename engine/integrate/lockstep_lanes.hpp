@@ -26,6 +26,7 @@ struct LaneRows {
   Row kp, kd;               ///< of LawSeries, per second; zero unless aligning
   Row cycle[5];             ///< b = sum of cycle[i] t^(i + 1), t [s] since the phase's start; zero unless in a cycle
   Row radius;               ///< align: the guard's tolerance times |K|; negative: no such guard
+  Row ceiling;              ///< align: the bound on |b|; infinite: no such guard
   Row q2_low, q2_high, direction, speed_floor;  ///< drift: the guards of Phase
 
   // Of the last step: where it began, its size, and how far its velocities strayed from straight lines.
@@ -130,6 +131,16 @@ auto chord_avoids(Real E0, Real V0, Real E1, Real V1, Real limit) {
   return (Real(0.0) < reach) & (limit * limit * sum < reach * reach);
 }
 
+/// Whether |b| = |kp E + kd V| stays below a ceiling over a step (sufficient).
+///
+/// @param position_bend, velocity_bend  bounds on h^2 |second derivative| of E and V
+inline Mask stays_below(Pack kp, Pack kd, Pack E0, Pack V0, Pack E1, Pack V1, Pack position_bend, Pack velocity_bend,
+                        Pack ceiling) {
+  const Pack ends = max(abs(fma(kp, E0, kd * V0)), abs(fma(kp, E1, kd * V1)));
+  const Pack strays = fma(abs(kp), position_bend, abs(kd) * velocity_bend);
+  return fma(strays, Pack(1.0 / 8), ends) < ceiling;
+}
+
 /// Bounds on how far a step's motion strays from straight lines.
 struct Bend {
   Single velocity;  ///< h^2 |second derivative| of the watched velocity, at most
@@ -195,6 +206,17 @@ Mask proves_quiet(const Lanes<precision>& lanes, Pack E, Pack q2, Pack V, Pack w
   const Mask fast =
       load(lanes.speed_floor) < fnma(widen(bend.velocity), Pack(1.0 / 8), min(direction * w0, direction * w));
   return far & inside & fast;
+}
+
+/// Lanes whose |b| may have come to its ceiling in the step just advanced, a bit each. Apart from proves_quiet(), for
+/// few trials have a ceiling.
+template <int precision>
+[[gnu::noinline]] std::uint32_t may_reach_ceiling(const Lanes<precision>& lanes) {
+  const Pack rate = load(lanes.rate_start), h = load(lanes.h), bend = load(lanes.bend);
+  const Pack slope = abs(lanes.series.V[1]) * (rate * rate);
+  const Mask below = stays_below(load(lanes.kp), load(lanes.kd), load(lanes.E_start), lanes.series.V[0] * rate,
+                                 load(lanes.E), load(lanes.V), fma(slope, h, bend) * h, bend, load(lanes.ceiling));
+  return bits(!below);
 }
 
 /// Advances every lane by one step of its own size. The state, t and the results are written; lanes that `watch` names

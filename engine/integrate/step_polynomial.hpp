@@ -26,7 +26,7 @@ struct StepPolynomial {
 /// @param guard  index into guards(); its bound is finite
 /// @param armed  whether it has been positive in this phase; brought up to date
 /// @return the time [s]; nothing where it does not fire
-std::optional<double> first_crossing(const StepPolynomial& step, const Phase& phase, double q1_goal, std::size_t guard,
-                                     bool& armed);
+std::optional<double> first_crossing(const StepPolynomial& step, const ClosedLoop<double>& loop, const Phase& phase,
+                                     std::size_t guard, bool& armed);
 
 }  // namespace steerstat

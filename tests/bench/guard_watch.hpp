@@ -19,10 +19,7 @@ struct Moment {
 
   Moment() = default;
   Moment(const ClosedLoopRate& system, double time, const Vector& state, const Vector& derivative)
-      : t(time),
-        y(state),
-        rate(derivative),
-        guards(steerstat::guards(system.phase, system.loop.q1_goal, state_of(y.data()))) {}
+      : t(time), y(state), rate(derivative), guards(steerstat::guards(system.loop, system.phase, state_of(y.data()))) {}
 
   /// The most that |d guard / dt| can be here.
   [[nodiscard]] double speed_of(std::size_t guard) const {
@@ -60,7 +57,7 @@ class GuardWatch {
     std::optional<Crossing> found;
     for (std::size_t i = 0; i < guard_count; ++i) {
       if (!suspects[i]) continue;
-      const std::optional<double> t = first_crossing(step, system.phase, system.loop.q1_goal, i, armed_[i]);
+      const std::optional<double> t = first_crossing(step, system.loop, system.phase, i, armed_[i]);
       if (t && (!found || *t < found->t)) found = {*t, i};
     }
     return found;

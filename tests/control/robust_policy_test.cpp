@@ -187,8 +187,10 @@ TEST(RobustPolicy, NoPhaseAsksForMoreThanTheBounds) {
       EXPECT_TRUE(excursion == 0.0 || std::abs(x.q1) + excursion <= robot.controller.max_stroke * (1.0 + 1e-12));
     }
     const Phase align = align_robustly(x, robot.controller, robot.goal);
-    EXPECT_LE(7.0 * align.pace * align.pace * std::abs(x.q1) + 5.0 * align.pace * std::abs(x.q1_dot), bound);
+    EXPECT_LE(7.0 * align.pace * align.pace * std::abs(x.q1) + 5.0 * align.pace * std::abs(x.q1_dot), 0.9 * bound);
     EXPECT_LE(align.pace, 1.0);
+    EXPECT_LT(align.ceiling, robot.controller.robust.max_acceleration);
+    EXPECT_GT(align.ceiling, 0.99999 * robot.controller.robust.max_acceleration);
   }
 }
 
@@ -199,8 +201,23 @@ TEST(RobustPolicy, AnAlignIsNoSlowerThanItsBoundAsksAndEnds) {
   EXPECT_EQ(free.duration, 3.5);
   robot.controller.robust.max_acceleration = 3.0;
   const Phase slow = align_robustly({1.0, 0.0, 0.5, 0.0}, robot.controller, robot.goal);
-  EXPECT_NEAR(7.0 * slow.pace * slow.pace + 2.5 * slow.pace, 3.0, 1e-12);
+  EXPECT_NEAR(7.0 * slow.pace * slow.pace + 2.5 * slow.pace, 0.9 * 3.0, 1e-12);
   EXPECT_NEAR(slow.duration, 3.5 / slow.pace, 1e-12);
+}
+
+TEST(RobustPolicy, APaceIsTooQuickWhereItAsksForNearlyTheBound) {
+  Robot robot;
+  robot.controller.robust.max_acceleration = 4.0;
+  const auto too_fast = [&](double q1, double q1_dot, double pace) {
+    return aligns_too_fast({q1, 0.0, q1_dot, 0.0}, pace, robot.controller, robot.goal);
+  };
+  const double limit = 0.95 * 4.0;
+  EXPECT_TRUE(too_fast(-limit / 7.0 * (1.0 + 1e-12), 0.0, 1.0));
+  EXPECT_FALSE(too_fast(limit / 7.0 * (1.0 - 1e-12), 0.0, 1.0));
+  EXPECT_TRUE(too_fast(0.0, -limit / 2.5 * (1.0 + 1e-12), 0.5));
+  EXPECT_FALSE(too_fast(0.0, limit / 2.5 * (1.0 - 1e-12), 0.5));
+  EXPECT_TRUE(too_fast(0.5, -0.1, 1.0)) << "both count, whatever their signs";
+  EXPECT_FALSE(too_fast(0.5, -0.1, 0.95));
 }
 
 TEST(RobustPolicy, AQuickJointTurnsNoMoreThanARadianInACycle) {
@@ -275,6 +292,35 @@ TEST(RobustSupervisor, WhatEndsATrialIsThePapers) {
   EXPECT_EQ(robot.after(PhaseKind::align, {0.0, 1.0, 0.0, 0.0}, 300.0).outcome, Status::timeout);
   EXPECT_EQ(robot.after(PhaseKind::align, {1001.0, 1.0, 0.0, 0.0}).outcome, Status::diverged);
   EXPECT_EQ(robot.after(PhaseKind::align, {0.03, pi / 4, 0.0, 0.0}).phase.kind, PhaseKind::align);
+}
+
+TEST(RobustSupervisor, AnAlignCutAtItsCeilingGoesOnAtASlowerPaceWithoutEndingItsLeg) {
+  const Robot robot;
+  const State<double> x{-1.0, 1.0, 3.0, 0.3};  // 7 + 15 is more than 19
+  Memory memory{PhaseKind::align};
+  memory.experience.leg = Experience::Leg::cycle;
+  double pace = 1.0;
+  for (int i = 0; i < 15; ++i) {
+    memory.pace = pace;
+    const Decision cut =
+        decide(1.0, {-1.0 / (pace * pace), 1.0, 3.0 / pace, 0.3}, memory, robot.controller, robot.goal);
+    ASSERT_FALSE(cut.outcome.has_value());
+    ASSERT_EQ(cut.phase.kind, PhaseKind::align);
+    EXPECT_LT(cut.phase.pace, 0.98 * pace);
+    EXPECT_EQ(cut.memory.pace, cut.phase.pace);
+    EXPECT_EQ(cut.memory.experience, memory.experience);
+    EXPECT_EQ(cut.memory.decisions, memory.decisions + 1) << "so that it cannot go on for ever";
+    memory = cut.memory;
+    pace = cut.phase.pace;
+  }
+  const Decision same = decide(1.0, x, {PhaseKind::align, 0, 0, 0, 0, 0.5}, robot.controller, robot.goal);
+  EXPECT_NE(same.phase.kind, PhaseKind::align) << "at half the pace it asks for 9.25: it ended for another reason";
+  memory.pace = 1.0;
+  memory.decisions = most_decisions;
+  EXPECT_EQ(decide(1.0, x, memory, robot.controller, robot.goal).outcome, Status::timeout);
+  Robot paper;
+  paper.controller.policy = Policy::paper;
+  EXPECT_NE(decide(1.0, x, Memory{PhaseKind::align}, paper.controller, paper.goal).phase.kind, PhaseKind::align);
 }
 
 TEST(RobustSupervisor, CountsBrakesAsCyclesAndOtherPushesAsSwings) {

@@ -32,7 +32,7 @@ TYPED_TEST_P(IntegratorGuards, TheGuardsFunctionIsZeroWhereItFired) {
     const Arrival arrival = this->advance(loop, align, 100.0, {1.0, 0.7, 0.0, 0.1}, 300.0);
     ASSERT_EQ(arrival.cause, Cause::guard);
     const double speed = 10.0 * tolerance;  // bounds |d active error / dt| <= sqrt(v^2 + a^2) at that error
-    EXPECT_NEAR(guards(align, 0.0, arrival.state)[0], 0.0, speed * guard_precision + 1e-15);
+    EXPECT_NEAR(guards(loop, align, arrival.state)[0], 0.0, speed * guard_precision + 1e-15);
   }
 }
 
@@ -117,7 +117,7 @@ TYPED_TEST_P(IntegratorGuards, AGuardThatStartsNonPositiveWaitsUntilItHasBeenPos
   // The active error rises from 1 to nearly 2, and dips below 1 once in a half turn from then on.
   const double start = 0.2;
   const State<double> x0 = this->state_of(oscillator, start);
-  const double at_zero = guards(align_phase(0.0), 0.0, x0)[0];
+  const double at_zero = guards(oscillator.loop(), align_phase(0.0), x0)[0];
   for (const double tolerance : {at_zero, std::nextafter(at_zero, 2.0), 1.2 * at_zero, 1.5 * at_zero}) {
     const auto guard = [&](double t) { return oscillator.active_error(t) - tolerance; };
     const double expected = first_descent_by_samples(guard, start + 1e-6, 5.0, 1e-3);
@@ -130,7 +130,7 @@ TYPED_TEST_P(IntegratorGuards, AGuardThatStartsNonPositiveWaitsUntilItHasBeenPos
 
 TYPED_TEST_P(IntegratorGuards, AGuardThatStartsOneBitAboveZeroAndFallsFiresAtOnce) {
   const State<double> x0{-1.0, 0.7, 2.0, 0.1};  // on an eigenvector of kp = 6, kd = 5
-  const double tolerance = std::nextafter(guards(align_phase(0.0), 0.0, x0)[0], 0.0);
+  const double tolerance = std::nextafter(guards(exact_loop(6.0, 5.0), align_phase(0.0), x0)[0], 0.0);
   const Arrival arrival = this->advance(exact_loop(6.0, 5.0), align_phase(tolerance), 3.0, x0, 300.0);
   ASSERT_EQ(arrival.cause, Cause::guard);
   EXPECT_NEAR(arrival.t, 3.0, guard_precision);
@@ -163,6 +163,66 @@ TYPED_TEST_P(IntegratorGuards, AGuardAtTheEndOfTheIntervalFiresNoLater) {
   EXPECT_EQ(after.t, 2.0);
 }
 
+TYPED_TEST_P(IntegratorGuards, AlignEndsWhereItsAccelerationComesToTheCeilingAtTheKnownTime) {
+  // kp = 6 and kd = 5 at a pace of 2 from 1.5 and 2.5: from (5, -6), a = -36 (exp(-2 t) - exp(-3 t)).
+  const ClosedLoop<double> loop = exact_loop(1.5, 2.5);
+  const auto magnitude = [](double t) { return 36.0 * (std::exp(-2.0 * t) - std::exp(-3.0 * t)); };
+  for (const double sign : {1.0, -1.0}) {
+    const State<double> x0{sign * 5.0, 0.7, sign * -6.0, 0.1};
+    Phase phase = align_phase(1e-3);
+    phase.pace = 2.0;
+    for (const double t : {0.01, 0.2, 0.4}) {
+      phase.ceiling = magnitude(t);
+      const Arrival arrival = this->advance(loop, phase, 3.0, x0, 300.0);
+      ASSERT_EQ(arrival.cause, Cause::guard);
+      const double slope = (magnitude(t + 1e-4) - magnitude(t - 1e-4)) / 2e-4;
+      EXPECT_NEAR(arrival.t, 3.0 + t, guard_precision + error_growth * 1e-9 / slope);
+      EXPECT_NEAR(guards(loop, phase, arrival.state)[4], 0.0, 1e-8);
+    }
+  }
+}
+
+TYPED_TEST_P(IntegratorGuards, ACeilingThatTheAccelerationJustMissesEndsNothing) {
+  const ClosedLoop<double> loop = exact_loop(6.0, 5.0);
+  const State<double> x0{5.0, 0.7, -6.0, 0.1};
+  Phase phase = align_phase(1e-3);
+  const double highest = 36.0 * 4.0 / 27.0;  // at exp(t) = 3/2
+  const Arrival free = this->advance(loop, phase, 3.0, x0, 300.0);
+  phase.ceiling = highest * (1.0 + 1e-7);
+  EXPECT_EQ(bits_of(this->advance(loop, phase, 3.0, x0, 300.0)), bits_of(free));
+  phase.ceiling = highest * (1.0 - 1e-7);
+  EXPECT_NEAR(this->advance(loop, phase, 3.0, x0, 300.0).t, 3.0 + std::log(1.5), 1e-3);
+}
+
+TYPED_TEST_P(IntegratorGuards, ACeilingIsMetOnTheWayUpThoughTheWayDownIsNextToWhereTheSearchLooks) {
+  const ClosedLoop<double> loop = exact_loop(6.0, 5.0);
+  const auto magnitude = [](double t) { return 36.0 * (std::exp(-2.0 * t) - std::exp(-3.0 * t)); };
+  const double top = std::log(1.5);
+  int cases = 0;
+  for (double start = 0.0; start < 0.3; start += 0.02) {
+    const double first = std::exp(-2.0 * start), second = std::exp(-3.0 * start);
+    const State<double> x0{9.0 * first - 4.0 * second, 0.7, 12.0 * second - 18.0 * first, 0.1};
+    Phase phase = align_phase(1e-3);
+    StepRecorder free;
+    TypeParam(1e-9).advance(loop, phase, start, x0, 2.0, &free);
+    for (const auto& [from, to] : free.steps) {
+      if (!(from < top && top < to)) continue;
+      const double part = (to - from) / 16.0;  // as finely as the lockstep search looks first
+      const double end = from + part * (std::floor((top - from) / part) + 1.0);
+      phase.ceiling = magnitude(end + 1e-4 * part);
+      if (end - top > 0.4 * part || magnitude(top) - phase.ceiling < 1e-8) continue;
+      const auto below = [&](double t) { return phase.ceiling - magnitude(t); };
+      const double expected = first_descent_by_samples(below, end - part, top, 0.01 * part);
+      const double slope = (magnitude(expected + 1e-5) - magnitude(expected - 1e-5)) / 2e-5;
+      const Arrival arrival = this->advance(loop, phase, start, x0, 2.0);
+      ASSERT_EQ(arrival.cause, Cause::guard);
+      EXPECT_NEAR(arrival.t, expected, guard_precision + error_growth * 1e-9 / slope) << start;
+      ++cases;
+    }
+  }
+  EXPECT_GT(cases, 0);
+}
+
 REGISTER_TYPED_TEST_SUITE_P(IntegratorGuards, AlignEndsAtItsToleranceAtTheKnownTime,
                             TheGuardsFunctionIsZeroWhereItFired, DriftEndsAtEitherBoundAtTheKnownTime,
                             FrictionBringsADriftToItsFloorAtTheKnownTimeAndAngle, TheFirstOfSeveralGuardsEndsThePhase,
@@ -170,6 +230,9 @@ REGISTER_TYPED_TEST_SUITE_P(IntegratorGuards, AlignEndsAtItsToleranceAtTheKnownT
                             ADipFiresWhereItReachesTheToleranceAndNotWhereItJustMisses,
                             AGuardThatStartsNonPositiveWaitsUntilItHasBeenPositive,
                             AGuardThatStartsOneBitAboveZeroAndFallsFiresAtOnce,
-                            AGuardThatNeverBecomesPositiveNeverFires, AGuardAtTheEndOfTheIntervalFiresNoLater);
+                            AGuardThatNeverBecomesPositiveNeverFires, AGuardAtTheEndOfTheIntervalFiresNoLater,
+                            AlignEndsWhereItsAccelerationComesToTheCeilingAtTheKnownTime,
+                            ACeilingThatTheAccelerationJustMissesEndsNothing,
+                            ACeilingIsMetOnTheWayUpThoughTheWayDownIsNextToWhereTheSearchLooks);
 
 }  // namespace steerstat::testing

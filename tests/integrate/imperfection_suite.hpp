@@ -183,10 +183,32 @@ TYPED_TEST_P(IntegratorImperfections, ABiasedAlignGoesToItsShiftedGoalAndEndsWhe
   EXPECT_NEAR(arrival.state.q1_dot, v, error_growth * 1e-9);
 }
 
+TYPED_TEST_P(IntegratorImperfections, TheCeilingIsOnTheAccelerationThatIsReadToBeNeeded) {
+  const ClosedLoop<double> loop = exact_loop(7.0, 0.5);
+  for (const double offset : {-0.4, 0.4}) {
+    Phase phase = align_phase(0.02);
+    phase.q1_offset = 0.3;
+    phase.q1_dot_offset = offset;
+    const double shift = 0.3 + 0.5 * offset / 7.0;
+    const auto read = [&](double t) {
+      const auto [y, v] = oscillation(7.0, 0.5, shift, 1.0, t);
+      return -7.0 * y - 0.5 * v;  // y has the velocity's offset in it
+    };
+    phase.ceiling = 2.9;
+    const double expected = first_descent_by_samples([&](double t) { return 2.9 - std::abs(read(t)); }, 0.0, 5.0, 1e-4);
+    ASSERT_LT(expected, 5.0) << offset;
+    const Arrival arrival = this->advance(loop, phase, 0.0, {0.0, 0.0, 1.0, 0.0}, 20.0);
+    ASSERT_EQ(arrival.cause, Cause::guard);
+    EXPECT_NEAR(arrival.t, expected, 1e-7);
+    EXPECT_NEAR(std::abs(align_acceleration(loop, phase, arrival.state)), 2.9, 1e-8);
+  }
+}
+
 REGISTER_TYPED_TEST_SUITE_P(IntegratorImperfections, ATiltAlongTheFirstAxisAddsAParabolaToAnyFreeMotion,
                             AFreeTiltedRobotKeepsItsEnergy, ASlidingMassStopsAsCoulombFrictionSays,
                             ASpinningLinkStopsAsCoulombFrictionSays, FrictionThatChangesItsSignIsCrossedWithoutLoss,
                             AGainErrorScalesTheLaw, ALimitedAlignIsBangThenLaw, AGuardFiresAtTheLimitToo,
-                            ABiasedAlignGoesToItsShiftedGoalAndEndsWhereItReadsSo);
+                            ABiasedAlignGoesToItsShiftedGoalAndEndsWhereItReadsSo,
+                            TheCeilingIsOnTheAccelerationThatIsReadToBeNeeded);
 
 }  // namespace steerstat::testing
