@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <memory>
 
-#include "all_rows.hpp"
 #include "commands.hpp"
 #include "core/errors.hpp"
 #include "output.hpp"
@@ -21,7 +20,8 @@ namespace {
 constexpr const char* epilogue =
     R"(One HTML file with its data inside: any browser opens it, and it asks no other host for anything. It stays below
 5 MB: of more than 10,000 trials those shown one by one are a random choice, maps count all, and each says of how many.
-Up to 50 failed trials and 10 that converged can be opened.
+Up to 50 failed trials and 10 that converged can be opened. Of a study that seeks failures, or keeps no rows of some
+trials, it leaves out what would count trials as they come.
 
 Example:
   steerstat report result.h5 -o result.html)";
@@ -36,13 +36,6 @@ ExitCode run(const Request& request) {
   if (const PageFiles files = embedded_page(); !files.absence.empty()) throw RunFailure(missing_page(files));
   check_outputs({{"--output", request.output}}, {{"the result file", request.file}});
   const StoredStudy stored = read_result(request.file);
-  if (seeks_failures(stored.study.sampling.method)) {
-    throw BadUsage(
-        fmt::format("{}: its trials are drawn where failures are, and the page's figures count trials as they "
-                    "come; use show, or export and weigh them",
-                    request.file));
-  }
-  require_all_rows(stored, request.file, "a report, whose maps count trials,");
   const Summary summary = summarise(stored.study, stored.result);
   ReportOptions options;
   options.file = std::filesystem::path(request.file).filename().string();

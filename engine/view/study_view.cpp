@@ -220,24 +220,40 @@ std::vector<SuccessMap> maps_of(const Trials& trials, const GivenDataSensitivity
 
 }  // namespace
 
+ShownRows shown_rows(const Study& study) {
+  if (seeks_failures(study.sampling.method)) return ShownRows::sought;
+  switch (study.store) {
+    case Store::all:
+      return ShownRows::all;
+    case Store::failed:
+      return ShownRows::failed;
+    case Store::summary:
+      break;
+  }
+  return ShownRows::none;
+}
+
 StudyView study_view(const ViewedStudy& viewed, const Summary& summary, const StudyViewOptions& options) {
   const Trials trials(viewed);
   StudyView view;
   view.created = options.created;
   view.spec = canonical_spec(viewed.study);
   view.summary = summary;
-  view.used = trials.rows.size();
+  view.rows = shown_rows(viewed.study);
+  view.used = viewed.result.sketch ? viewed.result.finished() : trials.rows.size();
+  for (std::size_t i = 0; i < trials.plan.varying().size(); ++i) view.inputs.push_back(varying_view(trials, i));
+  view.sweeps = swept_axes(trials);
+  view.sample = sample_of(trials);
+  view.failed = failures_of(trials);
+  view.narrowing.intervals = viewed.study.intervals;
+  if (view.rows != ShownRows::all) return view;
   view.narrowing = narrowing_of(viewed);
   view.distributions = distributions_of(trials);
   view.cycles = cycles_of(trials);
-  for (std::size_t i = 0; i < trials.plan.varying().size(); ++i) view.inputs.push_back(varying_view(trials, i));
   if (!trials.rows.empty()) {
     for (std::size_t i = 0; i < view.inputs.size(); ++i) view.marginals.push_back(marginal_of(trials, i));
   }
-  view.sweeps = swept_axes(trials);
   add_sensitivity(trials, view);
-  view.sample = sample_of(trials);
-  view.failed = failures_of(trials);
   if (view.sample.index.size() < view.sample.of) view.maps = maps_of(trials, view.given_data, options.most_maps);
   return view;
 }

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "report/sensitivity.hpp"
@@ -35,12 +37,21 @@ struct Marginal {
   std::vector<std::optional<ProportionInterval>> intervals;
 };
 
-/// What the page shows of a study (schemas/view.schema.json, `study`).
+/// Whose rows a view is made of: every trial's; those of a study that seeks failures, which lie where failures are and
+/// not as its distributions draw; those of trials that failed (and some that were audited or retained); or hardly any.
+enum class ShownRows : std::uint8_t { all, sought, failed, none };
+inline constexpr std::array<std::string_view, 4> shown_rows_names{"all", "sought", "failed", "none"};
+
+ShownRows shown_rows(const Study& study);
+
+/// What the page shows of a study (schemas/view.schema.json, `study`). Where the rows are not all, what counts trials
+/// as they come is left empty: narrowing, distributions, cycles, marginals, sensitivity and maps.
 struct StudyView {
+  ShownRows rows{ShownRows::all};
   std::optional<std::string> created;  ///< UTC, ISO 8601
   std::string spec;                    ///< canonical
   Summary summary;
-  std::uint64_t used{0};  ///< finished trials that count
+  std::uint64_t used{0};  ///< finished trials that count, whether their rows are there or not
   Narrowing narrowing;
   std::vector<EmpiricalDistribution> distributions;
   struct CycleCounts {
@@ -66,7 +77,7 @@ struct StudyView {
   std::uint64_t sensitivity_of{0};
   GivenDataSensitivity given_data;  ///< of success and settling_time
   struct Sample {
-    std::uint64_t of{0};                      ///< trials that count
+    std::uint64_t of{0};                      ///< trials that count and have a row
     std::vector<std::uint64_t> index;         ///< (shown) rising
     std::vector<Status> status;               ///< (shown)
     std::vector<double> settling_time;        ///< (shown) [s], NaN of a trial that did not converge

@@ -128,6 +128,7 @@ std::string study_view_json(const StudyView& view) {
   json["version"] = view_version;
   json["created"] = view.created ? Json(*view.created) : Json(nullptr);
   json["spec"] = view.spec;
+  json["rows"] = shown_rows_names[static_cast<std::size_t>(view.rows)];
   json["trials"] = {{"requested", view.summary.requested}, {"finished", view.summary.completed}, {"used", view.used}};
   json["summary"] = summary_of(view.summary);
   json["narrowing"] = narrowing_json(view.narrowing);
@@ -138,7 +139,7 @@ std::string study_view_json(const StudyView& view) {
   json["marginals"] = list_json(
       view.marginals, [&](const Marginal& marginal) { return marginal_json(marginal, view.summary.intervals.level); });
   json["sweeps"] = sweeps_json(view);
-  json["sensitivity"] = sensitivity_of(view);
+  json["sensitivity"] = view.rows == ShownRows::all ? sensitivity_of(view) : Json(nullptr);
   json["sample"] = sample_json(view.sample);
   json["failed"] = failed_json(view.failed);
   json["maps"] = list_json(view.maps, view_json::success_map);

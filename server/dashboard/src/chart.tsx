@@ -139,11 +139,11 @@ export const logTicks: AxisOptions = { splits: (_u, _axis, low, high) => logSpli
 export const ratio = () => devicePixelRatio;
 
 /** Runs a drawing with the plot's area as its bounds. */
-export function drawInside(u: uPlot, draw: (context: CanvasRenderingContext2D) => void): void {
+export function drawInside(u: uPlot, draw: (context: CanvasRenderingContext2D) => void, room = 0): void {
   const { ctx, bbox } = u;
   ctx.save();
   ctx.beginPath();
-  ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+  ctx.rect(bbox.left - room, bbox.top - room, bbox.width + 2 * room, bbox.height + 2 * room);
   ctx.clip();
   draw(ctx);
   ctx.restore();

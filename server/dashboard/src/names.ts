@@ -5,9 +5,9 @@ import type { PhaseKind, Status } from "./documents";
 const symbols: Record<string, string> = {
   m1: "m₁", m2: "m₂", d2: "d₂", I2: "I₂", f1: "f₁", f2: "f₂",
   q1: "q₁", q2: "q₂", q1_dot: "q̇₁", q2_dot: "q̇₂",
-  kp: "kₚ", kd: "k_d", eta1: "η₁", eta2: "η₂", tau: "τ",
+  kp: "kp", kd: "kd", eta1: "η₁", eta2: "η₂", tau: "τ",
   coulomb1: "Coulomb 1", coulomb2: "Coulomb 2", coulomb_speed1: "Coulomb speed 1", coulomb_speed2: "Coulomb speed 2",
-  gravity_x: "gₓ", gravity_y: "g_y", gain: "gain", max_force: "max |τ|",
+  gravity_x: "gx", gravity_y: "gy", gain: "gain", max_force: "max |τ|",
 };
 
 /** What a plot calls an input: "f₂", "q₂(0)", "η₁", else its last names in words. */
@@ -52,6 +52,9 @@ export const statusMeaning: Record<Status, string> = {
   diverged: "A runaway or non-finite state.",
   integrator_failed: "The step size fell below 1e-12 s.",
 };
+
+/** Of intervals. */
+export const methodWords = { wilson: "Wilson", clopper_pearson: "Clopper and Pearson", confidence_sequence: "confidence sequence", lognormal: "lognormal", fay_feuer: "Fay and Feuer" };
 
 /** For bands too narrow for the whole word. */
 export const phaseShort: Record<PhaseKind, readonly [string, string]> = {

@@ -111,6 +111,9 @@ export function ProblemBox({ problem, title = problem.title, detail = problem.de
     <div class="problem" role="alert">
       <strong>{title}</strong>
       {detail && <p>{detail}</p>}
+      {children === undefined && problem.mistakes.length > 0 && (
+        <ul>{problem.mistakes.map(({ pointer, detail: why }) => <li key={pointer + why}>{pointer && <><code>{pointer}</code> </>}{why}</li>)}</ul>
+      )}
       {children}
     </div>
   );

@@ -86,7 +86,7 @@ export function HeatMap({ sweeps }: { sweeps: Sweeps }) {
         </div>
       )}
       <div class="heat-scroll" tabIndex={0} role="group" aria-label="Heat map: arrow keys go through its cells" onKeyDown={onKeyDown}>
-        <table class={`heat ${isSmall ? "" : "dense"}`} onMouseLeave={() => setLooked(null)}>
+        <table class={`heat ${isSmall ? "" : "dense"}`} style={{ minWidth: `${64 + (isSmall ? 50 : 9) * columns.length}px` }} onMouseLeave={() => setLooked(null)}>
           <caption class="unseen">{shown === "rate" ? "Success rate" : "Median settling time"} by {symbol(x.input)}{y ? ` and ${symbol(y.input)}` : ""}</caption>
           <colgroup>
             {y && <col class="heat-title-column" />}

@@ -46,6 +46,14 @@ export function extent(axis: Axis): [number, number] {
   return [first - room, last + room];
 }
 
+/** An axis that some values fill, with a little room. */
+export function axisOver(input: string, unit: string, values: readonly number[]): Axis {
+  const low = values.reduce((least, value) => Math.min(least, value), Infinity);
+  const high = values.reduce((greatest, value) => Math.max(greatest, value), -Infinity);
+  const room = high > low ? 0.05 * (high - low) : 0.5;
+  return { input, unit, edges: values.length > 0 ? [low - room, high + room] : [0, 1], levels: null };
+}
+
 /** Bounds of bin k. */
 function bounds(axis: Axis, k: number): [number, number] {
   const { edges, levels } = axis;
@@ -177,7 +185,7 @@ function draw(u: uPlot, palette: Palette, { x, y, points, bins, picked, canOpen,
       }
     }
     if (points) drawPoints(u, context, palette, points, [picked, focus], canOpen);
-  });
+  }, points ? 10 * ratio() : 0); // a mark on the edge stays whole
 }
 
 function drawPoints(u: uPlot, context: CanvasRenderingContext2D, palette: Palette, points: Points, marked: readonly (number | null | undefined)[], canOpen: PlaneProps["canOpen"]): void {

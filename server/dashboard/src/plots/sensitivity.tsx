@@ -4,7 +4,7 @@ import { metricName, symbol } from "../names";
 import { count, number, none } from "../numbers";
 import { Card, Select } from "../parts";
 
-type Sensitivity = StudyView["sensitivity"];
+type Sensitivity = NonNullable<StudyView["sensitivity"]>;
 
 interface Bar {
   input: string;

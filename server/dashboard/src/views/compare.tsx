@@ -3,9 +3,9 @@ import { type ComparisonView, type Status, type StudyState, statuses } from "../
 import { statusWords, symbol, unitText } from "../names";
 import { count, none, number, percent, percentRange } from "../numbers";
 import { useDocument, usePage } from "../page_context";
-import { BreakingCode, Card, Empty, Figure, Select, Shown, StatusName } from "../parts";
+import { BreakingCode, Card, Empty, Figure, Select, Shown, StatusMark, StatusName } from "../parts";
 import { TwoDistributions, DistributionPlot } from "../plots/distribution";
-import { type Points, Plane } from "../plots/plane";
+import { type Points, Plane, axisOver } from "../plots/plane";
 import { go, studyLink, trialLink } from "../route";
 import type { StudyPage } from "../source";
 
@@ -140,14 +140,9 @@ function Discordant({ view }: { view: ComparisonView }) {
   if (discordant.index.length === 0) {
     return <Card class="wide" title="Discordant trials"><p class="muted">Every pair ended alike: there is no trial that converged on one side alone.</p></Card>;
   }
-  const range = (values: readonly number[]): [number, number] => {
-    const low = Math.min(...values);
-    const high = Math.max(...values);
-    const room = high > low ? 0.05 * (high - low) : 0.5;
-    return [low - room, high + room];
-  };
-  const along = (input: string, values: readonly number[]) => ({ input, unit: inputs.find((each) => each.input === input)?.unit ?? "1", edges: range(values), levels: null });
+  const along = (input: string, values: readonly number[]) => axisOver(input, inputs.find((each) => each.input === input)?.unit ?? "1", values);
   const options = names.map((input) => ({ value: input, text: `${symbol(input)} · ${input}` }));
+  const failuresOfB = statuses.filter((status) => status !== "converged" && points.status.includes(status));
   const all = comparison.discordant.a_only.count + comparison.discordant.b_only.count;
   return (
     <Card class="wide" title="Discordant trials" note={`${count(discordant.index.length)} of ${count(all)} that converged on one side alone. Click one to see it in the study where it failed.`}>
@@ -159,7 +154,7 @@ function Discordant({ view }: { view: ComparisonView }) {
               <Select label="Up" value={y} options={options} onChange={(next) => { if (next === x) setX(y); setY(next); }} />
             </div>
             <Plane x={along(x, points.x)} y={along(y, points.y)} points={points} height={340} onPick={(k) => go({ view: "trial", id: points.status[k] === "converged" ? comparison.a.id : comparison.b.id, index: points.index[k] ?? 0, t: null })} />
-            <p class="legend"><span><StatusName status="converged" /> in B alone</span><span><StatusName status="timeout" /> or failed otherwise in B, converged in A</span></p>
+            <p class="legend"><span><StatusMark status="converged" /> converged in B alone</span>{failuresOfB.map((status) => <span key={status}><StatusMark status={status} /> in A alone, {statusWords[status]} in B</span>)}</p>
           </div>
         )}
         <div class="scroll tall" tabIndex={0} role="group" aria-label="Discordant trials">

@@ -1,6 +1,6 @@
 import { useState } from "preact/hooks";
 import type { Gate, PrecisionGoal, Sample, StudyView, Summary } from "../documents";
-import { metricName, metricUnit, symbol } from "../names";
+import { methodWords, metricName, metricUnit, symbol } from "../names";
 import { count, number, percent, percentOf, percentRange, quantity } from "../numbers";
 import { usePage } from "../page_context";
 import { Card, Choice, Figure, Select } from "../parts";
@@ -9,27 +9,28 @@ import { DistributionPlot } from "../plots/distribution";
 import { HeatMap } from "../plots/heat_map";
 import { Narrowing } from "../plots/narrowing";
 import { Outcomes } from "../plots/outcomes";
-import { trialLink } from "../route";
-
-const methodWords = { wilson: "Wilson", clopper_pearson: "Clopper and Pearson", confidence_sequence: "confidence sequence", lognormal: "lognormal", fay_feuer: "Fay and Feuer" };
+import { studyLink, trialLink } from "../route";
+import { FailureRate, RareDiagnostics } from "./rare_failures";
 
 export function Overview({ view }: { view: StudyView }) {
   const { summary } = view;
   const rate = summary.success_rate;
   return (
     <div class="grid overview">
-      <Card class="headline" title="Success rate" note={usedNote(view)}>
-        <p class="big">{percentOf(rate.estimate, rate.ci_low, rate.ci_high)}</p>
-        <p class="interval">{percentRange(rate.ci_low, rate.ci_high)}<span class="muted"> · {number(100 * rate.level)} % interval ({methodWords[rate.method]})</span></p>
-        <Outcomes outcomes={summary.outcomes} />
-      </Card>
-      {view.narrowing.of > 1 ? <Card title="How it narrowed" note={`Of the first ${count(view.narrowing.of)} trials. ${view.narrowing.at_once ? "The intervals hold at all numbers of trials together." : "Each interval holds by itself, not all together."}`}>
+      {summary.rare_failures ? <FailureRate rare={summary.rare_failures} outcomes={summary.outcomes} /> : (
+        <Card class="headline" title="Success rate" note={usedNote(view)}>
+          <p class="big">{percentOf(rate.estimate, rate.ci_low, rate.ci_high)}</p>
+          <p class="interval">{percentRange(rate.ci_low, rate.ci_high)}<span class="muted"> · {number(100 * rate.level)} % interval ({methodWords[rate.method]})</span></p>
+          <Outcomes outcomes={summary.outcomes} />
+        </Card>
+      )}
+      {summary.rare_failures ? <RareDiagnostics rare={summary.rare_failures} /> : summary.sketch ? <Kept sketch={summary.sketch} id={summary.study.id} /> : view.narrowing.of > 1 ? <Card title="How it narrowed" note={`Of the first ${count(view.narrowing.of)} trials. ${view.narrowing.at_once ? "The intervals hold at all numbers of trials together." : "Each interval holds by itself, not all together."}`}>
         <Narrowing view={view} />
       </Card> : <SingleTrial view={view} />}
       {summary.gates.length > 0 && <Gates gates={summary.gates} />}
       {view.sweeps && <div class="wide"><HeatMap sweeps={view.sweeps} /></div>}
-      {view.trials.used > 1 && <Distributions view={view} />}
-      {view.trials.used > 1 && (
+      {view.rows === "all" && view.trials.used > 1 && <Distributions view={view} />}
+      {view.rows === "all" && view.trials.used > 1 && (
         <Card title="Contraction cycles" note="Of all trials." actions={<p class="legend"><span><span class="swatch fill-converged" /> converged</span><span><span class="swatch fill-timeout" /> others</span></p>}>
           <Cycles cycles={view.cycles} />
         </Card>
@@ -39,6 +40,17 @@ export function Overview({ view }: { view: StudyView }) {
       <Audit audit={summary.audit} id={summary.study.id} />
       <SpecCard spec={view.spec} />
     </div>
+  );
+}
+
+/** Which rows a study keeps that does not keep all, and what is missing without the others. */
+function Kept({ sketch, id }: { sketch: NonNullable<Summary["sketch"]>; id: string }) {
+  return (
+    <Card title="What is kept" note="How the rate narrowed, distributions, cycles, maps and indices need the row of every trial: run the study with “store”: “all” for them.">
+      <p>{sketch.store === "failed" ? "The rows of the trials that failed, and of some that were audited or retained." : "No rows, but of some trials that were audited or retained."}</p>
+      <p>All trials are in the rates and metrics: counts, extremes, means and spreads are exact, quantiles within {percent(sketch.relative_error, 2)}.</p>
+      {sketch.store === "failed" && <p class="see-trial"><a class="button" href={studyLink(id, "why")}>Where they failed</a></p>}
+    </Card>
   );
 }
 

@@ -57,7 +57,7 @@ function StudyTable({ list, studies, now, chosen, onChoose }: {
             <th scope="col">Study</th>
             <th scope="col" class="column-state">State</th>
             <th scope="col" class="column-trials">Trials</th>
-            <th scope="col" class="right wide-only column-rate">Rate</th>
+            <th scope="col" class="right wide-only column-rate">Trials/s</th>
             <th scope="col" class="wide-only column-created">Created</th>
             <th scope="col" class="column-actions"><span class="unseen">Actions</span></th>
           </tr>
@@ -74,7 +74,7 @@ function StudyTable({ list, studies, now, chosen, onChoose }: {
               </td>
               <td class="cell-state"><StateChip state={study.status} /></td>
               <td class="cell-progress"><StudyProgress study={study} /></td>
-              <td class="right wide-only">{study.progress.trials_per_s ? `${number(study.progress.trials_per_s, 3)} /s` : ""}</td>
+              <td class="right wide-only">{study.progress.trials_per_s ? number(study.progress.trials_per_s, 3) : ""}</td>
               <td class="wide-only"><time dateTime={study.created} title={study.created}>{ago(study.created, now)}</time></td>
               <td class="cell-actions"><StudyActions state={study} onChange={list.refresh} isBrief /></td>
             </tr>

@@ -34,7 +34,7 @@ export function TrialPage({ id, index, start }: { id: string; index: number; sta
             <a href={studyLink(id, "trials")}>trials</a>
           </p>
           <h1>Trial {index}</h1>
-          <p class="facts">{loaded.value ? <Outcome view={loaded.value} /> : <span class="muted">…</span>}</p>
+          <p class="facts">{loaded.value ? <Outcome view={loaded.value} /> : !loaded.problem && <span class="muted">…</span>}</p>
         </div>
         <Neighbours id={id} index={index} />
       </div>

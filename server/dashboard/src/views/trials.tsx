@@ -24,7 +24,7 @@ export function TrialsTab({ view, query }: { view: StudyView; query: Readonly<Re
     .filter((row) => !source.report || source.has(row.index));
   const present = statuses.filter((status) => view.summary.outcomes[status] > 0);
   const failures = statuses.reduce((sum, status) => sum + (status === "converged" ? 0 : view.summary.outcomes[status]), 0);
-  const numbered = (text: string, n: number) => (source.report ? text : `${text} (${count(n)})`);
+  const numbered = (text: string, n: number) => (source.report || view.rows === "failed" || view.rows === "none" ? text : `${text} (${count(n)})`);
   return (
     <Card title="Trials" note={note(view, source.report !== null)} actions={<OpenTrial id={id} count={view.trials.requested} />}>
       <div class="controls">
@@ -69,6 +69,8 @@ export function TrialsTab({ view, query }: { view: StudyView; query: Readonly<Re
 
 function note(view: StudyView, isReport: boolean): string {
   const { sample } = view;
+  const isKept = view.rows === "failed" || view.rows === "none";
+  if (isKept) return `The study keeps the rows of ${view.rows === "failed" ? "trials that failed, and of some that were" : "some trials that were"} audited or retained.${isReport ? " The report holds the courses of those listed." : ""} Any other is replayed by its number.`;
   if (isReport) return "A report holds the courses of some trials: those listed. The result file has all.";
   return sample.index.length >= sample.of ? "" : `${count(sample.index.length)} of ${count(sample.of)} trials chosen at random, and the first that failed. Any other opens by its number.`;
 }

@@ -5,7 +5,7 @@ import { count } from "../numbers";
 import { useDocument, usePage } from "../page_context";
 import { Card, Choice, Empty, Loading, ProblemBox, Select, StatusName } from "../parts";
 import { MarginalPlot } from "../plots/marginal";
-import { Plane, type Points, describeBin } from "../plots/plane";
+import { Plane, type Points, axisOver, describeBin } from "../plots/plane";
 import { SensitivityBars, byStrength } from "../plots/sensitivity";
 import { go, replaceRoute, trialLink } from "../route";
 import { binOf, binPlane, coarser } from "../statistics";
@@ -13,7 +13,7 @@ import { binOf, binPlane, coarser } from "../statistics";
 /** Views 3: which inputs a failure comes from. */
 export function WhyTab({ view, query }: { view: StudyView; query: Readonly<Record<string, string>> }) {
   const names = view.inputs.map((each) => each.input);
-  const ranked = useMemo(() => byStrength(view.sensitivity, names), [view]);
+  const ranked = useMemo(() => (view.sensitivity ? byStrength(view.sensitivity, names) : names), [view]);
   if (names.length === 0) {
     return (
       <Empty title="Nothing varies in this study">
@@ -22,11 +22,19 @@ export function WhyTab({ view, query }: { view: StudyView; query: Readonly<Recor
       </Empty>
     );
   }
+  if (view.rows === "none") {
+    return (
+      <Empty title="This study keeps no rows">
+        <p>Where its trials fail would show with “store”: “failed”, and how often along each input with “all”. Any trial of it is replayed by its number.</p>
+      </Empty>
+    );
+  }
   const known = (input: string | undefined) => (input !== undefined && names.includes(input) ? input : null);
   const x = known(query.x) ?? ranked[0] ?? names[0] ?? "";
   const y = known(query.y) ?? ranked.find((input) => input !== x) ?? x;
   const choose = (nextX: string, nextY: string) =>
     replaceRoute({ view: "study", id: view.summary.study.id, tab: "why", query: { ...query, x: nextX, y: nextY } });
+  if (view.rows !== "all" || view.sensitivity === null) return <Where view={view} x={x} y={y} names={names} onChoose={choose} />;
   return (
     <div class="grid why">
       {x !== y && <MapCard view={view} x={x} y={y} names={names} onChoose={choose} shownAs={query.as} />}
@@ -47,6 +55,51 @@ export function WhyTab({ view, query }: { view: StudyView; query: Readonly<Recor
   );
 }
 
+/** Of trials that are not as the study's distributions draw them: where they lie, and no rates. */
+function Where({ view, x, y, names, onChoose }: { view: StudyView; x: string; y: string; names: readonly string[]; onChoose: (x: string, y: string) => void }) {
+  const { source } = usePage();
+  const all = usePoints(view, x, y);
+  const isSought = view.rows === "sought";
+  const points = useMemo(() => (isSought ? all : chosenPoints(all, (status) => status !== "converged")), [all, isSought]);
+  const unit = (input: string) => view.inputs.find((each) => each.input === input)?.unit ?? "1";
+  const options = inputOptions(names);
+  const present = statuses.filter((status) => points.status.includes(status));
+  const of = isSought ? view.sample.of : view.failed.of;
+  return (
+    <Card class="map-card" title={isSought ? "Trials over two inputs" : "Failures over two inputs"}>
+      {x !== y && (
+        <div class="controls">
+          <Select label="Across" value={x} options={options} onChange={(next) => onChoose(next, next === y ? x : y)} />
+          <Select label="Up" value={y} options={options} onChange={(next) => onChoose(next === x ? y : x, next)} />
+          <button type="button" class="button quiet" onClick={() => onChoose(y, x)}>Exchange</button>
+        </div>
+      )}
+      {points.index.length === 0 ? <Empty title={isSought ? "No trial yet" : "No trial failed"} /> : x === y ? <p class="muted">One input varies: a plane needs two. The trials are listed under “Trials”.</p> : (
+        <>
+          <Plane x={axisOver(x, unit(x), points.x)} y={axisOver(y, unit(y), points.y)} points={points} onPick={(place) => go({ view: "trial", id: view.summary.study.id, index: points.index[place] ?? 0, t: null })}
+            canOpen={source.report ? (index) => source.has(index) : undefined} height={430} />
+          <p class="legend">{present.map((status) => <StatusName key={status} status={status} />)}</p>
+        </>
+      )}
+      <p class="note">
+        {points.index.length < of ? `${count(points.index.length)} of ${count(of)} ${isSought ? "trials" : "failures"}, chosen at random. ` : ""}
+        {isSought
+          ? "The trials were drawn where failures are sought: this shows where they lie, and how dense they are says nothing of how often. Success along each input and indices would be untrue, and are left out."
+          : "The study keeps the rows of failures alone: this shows where they lie, not how often trials there fail."}
+        {source.report ? " Those in rings are in this report." : ""} Click one to see what happened in it.
+      </p>
+    </Card>
+  );
+}
+
+const inputOptions = (names: readonly string[]) => names.map((input) => ({ value: input, text: symbol(input) === input ? input : `${symbol(input)} · ${input}` }));
+
+function chosenPoints(points: Points, isChosen: (status: Points["status"][number]) => boolean): Points {
+  const places = points.index.map((_, k) => k).filter((k) => isChosen(points.status[k] ?? "converged"));
+  const of = <Value,>(column: readonly Value[]) => places.map((k) => column[k] as Value);
+  return { index: of(points.index), status: of(points.status), x: of(points.x), y: of(points.y) };
+}
+
 function MapCard({ view, x, y, names, onChoose, shownAs }: {
   view: StudyView;
   x: string;
@@ -58,14 +111,17 @@ function MapCard({ view, x, y, names, onChoose, shownAs }: {
   const id = view.summary.study.id;
   const { source } = usePage();
   const isWhole = view.sample.index.length >= view.sample.of;
-  const [shown, setShown] = useState<"points" | "bins">(shownAs === "bins" || !isWhole ? "bins" : "points");
+  const [chosen, setShown] = useState<"points" | "bins" | null>(shownAs === "bins" || shownAs === "points" ? shownAs : null);
   const [picked, setPicked] = useState<number | null>(null);
   const points = usePoints(view, x, y);
   const axes = useMemo(() => {
     const along = (input: string) => view.marginals.find((each) => each.axis.input === input)?.axis ?? null;
     return [along(x), along(y)] as const;
   }, [view, x, y]);
-  const options = names.map((input) => ({ value: input, text: symbol(input) === input ? input : `${symbol(input)} · ${input}` }));
+  const places = (axes[0]?.levels?.length ?? Infinity) * (axes[1]?.levels?.length ?? Infinity);
+  const isStacked = points.index.length > places; // failures would hide what converged at the same place
+  const shown = chosen ?? (isWhole && !isStacked ? "points" : "bins");
+  const options = inputOptions(names);
   const pick = (place: number) => {
     if (shown === "points") go({ view: "trial", id, index: points.index[place] ?? 0, t: null });
     else setPicked(place);
@@ -93,6 +149,7 @@ function MapCard({ view, x, y, names, onChoose, shownAs }: {
           </p>
           <p class="note">
             {isWhole ? `All ${count(view.sample.of)} ${view.trials.used < view.trials.finished ? "independent " : ""}trials.` : `${count(view.sample.index.length)} of ${count(view.sample.of)} trials, chosen at random.`} {source.report ? "Those in rings are in this report: click one to see what happened in it." : "Click one to see what happened in it."}
+            {isStacked && " Trials of the same two values lie upon one another, failures on top: the rates tell how many."}
           </p>
         </>
       ) : isWhole && axes[0] && axes[1] ? (
