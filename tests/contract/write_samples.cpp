@@ -52,6 +52,12 @@ void write_views(const std::filesystem::path& directory, const Study& swept, con
   write_text("swept_view.json", study_view_json(study_view(viewed, summarise(parts.study, parts.result))));
   write_text("map_view.json", success_map_json(success_map(viewed, "controller.contraction.eta1", "plant.f2")));
 
+  const auto sought = testing_report::finished(R"({"plant": {"f2": {"uniform": [0, 0.05]}},
+      "sampling": {"method": "importance", "trials": 90,
+                   "proposal": {"components": [{"inputs": {"plant.f2": {"shift": 2}}}]}}})");
+  write_text("sought_view.json", study_view_json(study_view({sought.study, sought.result, sought.parameters},
+                                                            summarise(sought.study, sought.result))));
+
   const auto a = testing_report::finished(testing_report::drawn_spec(70), 1);
   const auto b = testing_report::finished(testing_report::drawn_spec(70, R"(, "horizon": 100)"), 2);
   write_text("comparison_view.json", comparison_view_json(comparison_view(a.compared(), b.compared())));

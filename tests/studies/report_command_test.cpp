@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <utility>
 
 #include "json_text.hpp"
 #include "page/embedded_page.hpp"
@@ -52,6 +53,30 @@ TEST(Report, HoldsTheStudyAndTrialsThatCanBeOpenedOrSaysThatTheProgramHasNoPage)
   EXPECT_NE(report["trials"][0]["outcome"]["status"], "converged");
   EXPECT_EQ(report["trials"].back()["outcome"]["status"], "converged");
   EXPECT_THAT(written.err, HasSubstr("wrote the report on 200 trials"));
+}
+
+TEST(Report, LeavesOutWhatWouldCountTrialsThatAreNotAsTheyCome) {
+  const Scratch scratch;
+  if (lacks_the_page(scratch)) return;
+  const std::string common = R"("plant": {"f2": {"uniform": [0, 0.04]}}, "horizon": 100, "audit": {"trials": 0})";
+  for (const auto& [rows, rest] :
+       {std::pair("sought", R"("sampling": {"method": "importance", "trials": 100, "proposal":
+           {"components": [{"inputs": {"plant.f2": {"shift": 1}}}]}})"),
+        std::pair("sought", R"("sampling": {"method": "subset_simulation", "trials": 100})"),
+        std::pair("failed", R"("sampling": {"trials": 100}, "store": "failed")"),
+        std::pair("none", R"("sampling": {"trials": 100}, "store": "summary")")}) {
+    const std::string spec = scratch.file("spec.json", "{" + common + ", " + rest + "}");
+    const std::string result = scratch / (std::string(rows) + std::to_string(std::string(rest).size()) + ".h5");
+    ASSERT_EQ(steerstat({"run", spec, "-o", result, "--no-progress"}).exit_code, 0) << rest;
+    const Ending written = steerstat({"report", result, "-o", scratch / "r.html"});
+    ASSERT_EQ(written.exit_code, 0) << written.err;
+    const json report = document_in(read_file(scratch / "r.html"));
+    const json& study = report["study"];
+    EXPECT_EQ(study["rows"], rows);
+    EXPECT_TRUE(study["marginals"].empty() && study["maps"].empty() && study["distributions"].empty());
+    EXPECT_EQ(study["sensitivity"], nullptr);
+    EXPECT_EQ(report["trials"].empty(), std::string(rows) == "none") << rest;
+  }
 }
 
 TEST(Report, RefusesToOverwriteTheResultFile) {

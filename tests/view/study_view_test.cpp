@@ -17,6 +17,7 @@ using Json = nlohmann::json;
 using testing_report::drawn_spec;
 using testing_report::finished;
 using testing_report::Finished;
+using testing_report::keep_trials;
 
 std::uint64_t sum(const std::vector<std::uint64_t>& counts) {
   return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
@@ -147,6 +148,42 @@ TEST(StudyView, ShowsAStudyWithoutFinishedTrials) {
   const Json json = testing::json_of(study_view_json(view));
   EXPECT_EQ(json["trials"]["finished"], 0);
   EXPECT_EQ(json["inputs"][0]["low"], nullptr);
+}
+
+TEST(StudyView, OfTrialsThatSeekFailuresListsThemAndCountsNothing) {
+  const Finished made = finished(R"({"plant": {"m1": {"uniform": [0.8, 1.2]}, "f2": {"uniform": [0, 0.05]}},
+    "sampling": {"method": "importance", "trials": 12000,
+                 "proposal": {"nominal": 0.5, "components": [{"inputs": {"plant.f2": {"shift": 2}}}]}}})");
+  const StudyView view = view_of(made, 5);
+  EXPECT_EQ(view.rows, ShownRows::sought);
+  EXPECT_TRUE(view.summary.rare_failures.has_value());
+  EXPECT_EQ(view.sample.of, 12000U);
+  EXPECT_EQ(view.sample.index.size(), 10000U);
+  EXPECT_EQ(view.failed.of, 12000U - view.summary.all.outcomes[0]);
+  EXPECT_EQ(view.narrowing.of, 0U);
+  EXPECT_TRUE(view.distributions.empty() && view.cycles.from.empty() && view.marginals.empty() && view.maps.empty());
+  EXPECT_EQ(testing::json_of(study_view_json(view))["sensitivity"], nullptr);
+}
+
+TEST(StudyView, OfAStudyThatKeepsFailuresAloneCountsAllTrialsAndListsThose) {
+  Finished made = finished(drawn_spec(400));
+  TrialSketch sketch(1);
+  sketch.add(0, made.result.trials.outcomes, [](std::size_t n, const auto& task) {
+    for (std::size_t i = 0; i < n; ++i) task(i);
+  });
+  const std::uint64_t failures = 400 - summarise(made.study, made.result).all.outcomes[0];
+  keep_trials(made, [&, outcomes = made.result.trials.outcomes](std::uint64_t index) {
+    return outcomes[index].status != Status::converged;
+  });
+  made.study.store = Store::failed;
+  made.result.sketch = sketch;
+  const StudyView view = view_of(made);
+  EXPECT_EQ(view.rows, ShownRows::failed);
+  EXPECT_EQ(view.used, 400U);
+  EXPECT_EQ(view.summary.all.outcomes[0], 400U - failures);
+  EXPECT_EQ(view.sample.of, failures);
+  EXPECT_EQ(view.failed.of, failures);
+  EXPECT_TRUE(view.marginals.empty());
 }
 
 TEST(StudyViewJson, HoldsTheCellsAsColumnsInTheOrderOfTheSummary) {

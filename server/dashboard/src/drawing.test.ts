@@ -49,6 +49,10 @@ describe("problems", () => {
     expect(problem).toMatchObject({ status: 422, title: "Bad spec", retryAfter: 3, mistakes: [{ pointer: "/plant/m1", detail: "no" }, { pointer: "", detail: "whole" }] });
     expect(problem.isLost).toBe(false);
   });
+  it("are told in plain words where they have HTTP's", async () => {
+    const response = new Response(JSON.stringify({ title: "Not Found", detail: "there is no trial 7" }), { status: 404 });
+    expect(await readProblem(response)).toMatchObject({ status: 404, title: "That is not here", detail: "there is no trial 7" });
+  });
   it("are told by their status where they have no words", async () => {
     expect((await readProblem(new Response("<html>", { status: 502, statusText: "Bad Gateway" }))).title).toBe("Bad Gateway");
   });

@@ -33,16 +33,14 @@ export class Problem extends Error {
 export const lostConnection = () =>
   new Problem(0, "No connection to the service", "It does not answer. The page tries again by itself.");
 
-/** What HTTP's own phrases ("Unprocessable Content") say to a reader. */
-const titles: Readonly<Record<number, string>> = {
-  400: "The service does not understand this",
-  404: "That is not here",
-  409: "Not in this state",
-  413: "That is too large",
-  422: "That cannot be done",
-  429: "Too much at once",
-  500: "The service has failed",
-  503: "The service has too much to do",
+/** What HTTP's own phrases say to a reader. */
+const plainWords: Readonly<Record<string, string>> = {
+  "Bad Request": "The service does not understand this",
+  "Not Found": "That is not here",
+  "Unprocessable Content": "That cannot be done",
+  "Too Many Requests": "Too much at once",
+  "Internal Server Error": "The service has failed",
+  "Service Unavailable": "The service has too much to do",
 };
 
 /** Reads an RFC 9457 problem from a response that is no success. */
@@ -66,6 +64,6 @@ export async function readProblem(response: Response): Promise<Problem> {
         return typeof detail === "string" ? [{ pointer: typeof pointer === "string" ? pointer : "", detail }] : [];
       })
     : [];
-  const title = titles[response.status] ?? (of("title") || response.statusText || `Status ${response.status}`);
-  return new Problem(response.status, title, of("detail"), mistakes, retryAfter);
+  const title = of("title") || response.statusText || `Status ${response.status}`;
+  return new Problem(response.status, plainWords[title] ?? title, of("detail"), mistakes, retryAfter);
 }

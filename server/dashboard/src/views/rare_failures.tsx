@@ -22,8 +22,8 @@ export function FailureRate({ rare, outcomes }: { rare: RareFailures; outcomes: 
         {!rare.trusted && <span class="muted"> {rare.reason}</span>}
       </p>
       <dl class="figures">
-        <Figure name="success rate">{number(100 * (1 - Math.min(1, rate.estimate)), 8)} %</Figure>
-        <Figure name="standard error">{number(rate.standard_error, 3)}</Figure>
+        <Figure name="success rate">{rare.trusted ? `${number(100 * (1 - Math.min(1, rate.estimate)), 8)} %` : `≥ ${number(100 * (1 - rate.ci_high), 8)} %`}</Figure>
+        {rare.trusted && <Figure name="standard error">{number(rate.standard_error, 3)}</Figure>}
         <Figure name="plain draws">{count(nominal.trials)}</Figure>
         <Figure name="failures among them">{count(nominal.failures)}</Figure>
         <Figure name="their interval alone">{number(nominal.ci_low, 3)} to {number(nominal.ci_high, 3)}</Figure>
