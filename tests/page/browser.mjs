@@ -26,10 +26,11 @@ export async function openPage(browser, options = {}) {
   return { page, context, faults };
 }
 
-/** Nothing that axe finds serious; and nothing wider than the screen. */
-export async function expectAccessible(page, name) {
+/** Nothing that axe finds serious; and nothing wider than the screen. @param rules  of axe; all, unless some are named */
+export async function expectAccessible(page, name, rules = null) {
   await page.evaluate(axe);
-  const { violations } = await page.evaluate(() => globalThis.axe.run(document, { resultTypes: ["violations"] }));
+  const only = rules === null ? {} : { runOnly: { type: "rule", values: rules } };
+  const { violations } = await page.evaluate((more) => globalThis.axe.run(document, { resultTypes: ["violations"], ...more }), only);
   const serious = violations.filter(({ impact }) => impact === "serious" || impact === "critical");
   assert.deepEqual(serious.map(({ id, nodes }) => `${name}: ${id} at ${nodes[0].target.join(" ")}: ${nodes[0].failureSummary}`), []);
   const surplus = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);

@@ -69,6 +69,7 @@ function NoTrials({ state }: { state: StudyState | null }) {
   if (state !== null && !isActive(state)) {
     return <Empty title={`It ${state.status === "cancelled" ? "was cancelled" : "ended"} before a trial finished`}><p>The same spec posted again runs it.</p></Empty>;
   }
+  if (state !== null && state.progress.completed > 0) return <Empty title="The first figures are on their way"><p>Trials have finished; what they say is being counted.</p></Empty>;
   return <Empty title="No trial has finished yet"><p>{state?.status === "queued" ? "It waits for its turn." : "The first figures come with the first trials."}</p></Empty>;
 }
 
