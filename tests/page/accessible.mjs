@@ -11,7 +11,7 @@ export function testAccessibility(bench) {
       "#/new": ".spec-form",
       [`#/studies/${small}`]: ".overview .chart canvas",
       [`#/studies/${small}/why`]: ".map-card canvas",
-      [`#/studies/${small}/trials`]: ".trial-table",
+      [`#/studies/${robust}/trials`]: ".trial-table",
       [`#/studies/${small}/trials/${await bench.failed()}`]: ".figure-card canvas",
       [`#/studies/${swept}`]: ".heat",
       [`#/studies/${robust}/trials/3`]: ".figure-card canvas",
