@@ -12,6 +12,7 @@
 #include "core/elapsed.hpp"
 #include "core/errors.hpp"
 #include "distributed/job.hpp"
+#include "distributed/pauses.hpp"
 #include "distributed/prefix_watch.hpp"
 #include "distributed/range_dealer.hpp"
 #include "store/sketched_part.hpp"
@@ -68,13 +69,15 @@ class Leader {
       ranks_.send_to_worker(rank, MessageKind::job, job_.message().bytes());
     }
     working_ = ranks_.count();
+    Pauses pauses;
     while (working_ > 0) {
       report();
       if (options_.stop.stop_requested() || watch_.stopped()) dealer_.halt();
       if (std::optional<Message> message = ranks_.next_for_leader()) {
         take(*message);
+        pauses.begin_anew();
       } else {
-        std::this_thread::sleep_for(std::chrono::microseconds(500));
+        pauses.pause();
       }
     }
     if (callback_failure_) std::rethrow_exception(callback_failure_);

@@ -5,11 +5,11 @@
 #include <chrono>
 #include <exception>
 #include <optional>
-#include <thread>
 #include <utility>
 
 #include "core/errors.hpp"
 #include "distributed/job.hpp"
+#include "distributed/pauses.hpp"
 #include "store/shard.hpp"
 #include "store/sketched_part.hpp"
 #include "study/run.hpp"
@@ -20,12 +20,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// MPI's own waiting keeps a core busy, which trials can use.
 Message wait_for_message(Ranks& ranks) {
-  constexpr std::chrono::microseconds interval{500};
+  Pauses pauses;
   while (true) {
     if (std::optional<Message> message = ranks.next_for_worker()) return std::move(*message);
-    std::this_thread::sleep_for(interval);
+    pauses.pause();
   }
 }
 
