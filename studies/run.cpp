@@ -267,13 +267,22 @@ ExitCode lead(Ranks& ranks, const Request& request) {
   }
 }
 
+/// @throws BadUsage for what is for several processes, where there is one
+void require_ranks(const Request& request) {
+  const char* option = request.sharing.gather ? "--gather" : request.sharing.seconds_a_range ? "--ask-every" : nullptr;
+  if (option == nullptr) return;
+  if (request.shard) {
+    throw BadUsage(
+        fmt::format("{}: a shard runs in one process, which writes its trials itself; leave it out", option));
+  }
+  if (!rank_in_environment()) {
+    throw BadUsage(
+        fmt::format("{}: this process is alone (it is for several, started by mpirun or srun); leave it out", option));
+  }
+}
+
 ExitCode run_alone_or_together(const Request& request) {
-  if (request.sharing.gather && request.shard) {
-    throw BadUsage("--gather: a shard runs in one process, which writes its trials itself; leave it out");
-  }
-  if (request.sharing.gather && !rank_in_environment()) {
-    throw BadUsage("--gather: this process is alone (it is for several, started by mpirun or srun); leave it out");
-  }
+  require_ranks(request);
   // A shard is a run of its own, even where one command starts several.
   const std::unique_ptr<Ranks> ranks = request.shard ? nullptr : join_ranks();
   if (!ranks) return run(request, nullptr);
@@ -306,7 +315,7 @@ void add_run(CLI::App& program, ExitCode& exit_code) {
       "Under mpirun or srun: send trials to rank 0; else each rank writes beside the -o, which all share");
   command
       ->add_option("--ask-every", request->sharing.seconds_a_range,
-                   "Under mpirun or srun: seconds of work that a rank is given at a time; 2 for up to 200 ranks unless "
+                   "Under mpirun or srun: seconds of work that a rank is given at a time; 2 for up to 100 ranks unless "
                    "given, more for more")
       ->type_name("S")
       ->check(CLI::Range(0.001, 86400.0).description(""));

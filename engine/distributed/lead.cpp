@@ -246,7 +246,7 @@ class Leader {
 }  // namespace
 
 double usual_seconds_a_range(int ranks) {
-  return std::max(2.0, ranks / 100.0);
+  return std::max(2.0, ranks / 50.0);
 }
 
 RankedRun run_on_ranks(Ranks& ranks, const Study& study, const RunOptions& options, FinishedTrials earlier,

@@ -28,7 +28,7 @@ struct Sharing {
   std::optional<double> seconds_a_range{};
 };
 
-/// [s] Two; of more than 200 ranks longer, so that they ask no more than 100 times a second together. @param ranks  > 0
+/// [s] Two; of more than 100 ranks longer, so that they ask no more than 50 times a second together. @param ranks  > 0
 double usual_seconds_a_range(int ranks);
 
 /// Leads the ranks through a study, and works with them on a thread of its own: deals out what is missing until all is

@@ -123,6 +123,7 @@ TEST_F(Mpirun, GivesTheBytesOfOneProcessOnOneTwoAndFourRanks) {
   };
   for (const int ranks : {1, 2, 4}) expect_same(ranks, {});
   expect_same(2, {"--gather"});
+  expect_same(2, {"--ask-every", "0.01"});
 }
 
 TEST_F(Mpirun, AKilledRankCostsOnlyItsUnfinishedBlocks) {
@@ -173,11 +174,13 @@ TEST_F(Mpirun, RanksThatAreGivenTheSameShardAreToldAndRunItOnce) {
   EXPECT_EQ(count_in(ending.err, "steerstat: " + out_ + ".parts is in use by another process"), 1) << ending.err;
 }
 
-TEST_F(Mpirun, AShardGathersNothing) {
+TEST_F(Mpirun, OptionsOfRanksAreRefusedWhereThereAreNone) {
   set_spec(spec_of(2000));
   const Ending ending = mpirun(1, {"--shard", "1/2", "-o", out_, "--gather"});
   EXPECT_EQ(ending.exit_code, 2);
   EXPECT_THAT(ending.err, HasSubstr("steerstat: --gather: a shard runs in one process"));
+  EXPECT_THAT(steerstat({"run", spec_, "--ask-every", "1"}).err,
+              HasSubstr("steerstat: --ask-every: this process is alone"));
 }
 
 TEST_F(Mpirun, EveryRankEndsWithTheExitCodeAndOneSpeaks) {

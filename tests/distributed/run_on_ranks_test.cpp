@@ -125,11 +125,11 @@ TEST_F(RunOnRanks, GivesTheSameBitsHoweverMuchARankIsGivenAtATime) {
   }
 }
 
-TEST(SecondsARange, AreTwoUnlessRanksWouldAskMoreThanAHundredTimesASecond) {
+TEST(SecondsARange, AreTwoUnlessRanksWouldAskMoreThanFiftyTimesASecond) {
   EXPECT_EQ(usual_seconds_a_range(1), 2.0);
-  EXPECT_EQ(usual_seconds_a_range(200), 2.0);
-  EXPECT_EQ(usual_seconds_a_range(201), 2.01);
-  EXPECT_EQ(usual_seconds_a_range(1000), 10.0);
+  EXPECT_EQ(usual_seconds_a_range(100), 2.0);
+  EXPECT_EQ(usual_seconds_a_range(101), 2.02);
+  EXPECT_EQ(usual_seconds_a_range(1000), 20.0);
 }
 
 TEST_F(RunOnRanks, RunsOnlyWhatIsMissing) {
