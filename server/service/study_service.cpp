@@ -41,11 +41,11 @@ std::vector<SpecError> excesses(const Study& study, const ServiceLimits& limits,
                                             store_names[static_cast<std::size_t>(study.store)])});
   }
   const Plan plan(study);
-  if (seeks_failures(study.sampling.method)) {
+  if (study.sampling.method == SamplingMethod::subset_simulation) {
     errors.push_back(
-        {"/sampling/method", fmt::format("{} is not run here (what the service shows counts trials as they come); use "
-                                         "monte_carlo, or steerstat run",
-                                         sampling_method_names[static_cast<std::size_t>(study.sampling.method)])});
+        {"/sampling/method",
+         "subset_simulation is not run here (its trials follow from those before, so that nothing is known until the "
+         "last); use importance or monte_carlo, or steerstat run"});
   }
   if (plan.trials() > limits.trials) {
     errors.push_back(

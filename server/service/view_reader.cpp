@@ -16,8 +16,21 @@
 #include "view/trial_view.hpp"
 
 namespace steerstat {
+namespace {
+
+/// @throws BadUsage for a study whose trials are not drawn from its own distributions
+void require_trials_as_they_come(const StudyEntry& entry) {
+  if (!seeks_failures(entry.study->sampling.method)) return;
+  throw BadUsage(fmt::format(
+      "study {} draws its trials where failures are, and what a page draws counts trials as they come; read its "
+      "summary, or weigh the trials of its result file",
+      entry.id));
+}
+
+}  // namespace
 
 StudyViews::Text StudyReader::study_view(const StudyEntry& entry) {
+  require_trials_as_they_come(entry);
   const StudyState state = catalogue_.state(entry);
   return views_.view(entry.id, state.revision, state.status == StudyStatus::running, [&] {
     const std::shared_ptr<const KeptStudy> kept = everything(entry);
@@ -31,6 +44,7 @@ StudyViews::Text StudyReader::study_view(const StudyEntry& entry) {
 }
 
 std::string StudyReader::success_map(const StudyEntry& entry, std::string_view x, std::string_view y) {
+  require_trials_as_they_come(entry);
   const std::lock_guard lock(comparing_);
   const std::shared_ptr<const KeptStudy> kept = everything(entry);
   const auto parameters = drawn_parameters(Plan(*entry.study), kept->result.trials);

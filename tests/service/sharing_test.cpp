@@ -129,6 +129,12 @@ TEST_F(Sharing, AnApproximationStudyIsRefused) {
   EXPECT_THAT(refused<BadSpec>(R"({"kind": "approximation"})"), ::testing::ElementsAre("/kind"));
 }
 
+TEST_F(Sharing, ASubsetSimulationIsRefused) {
+  EXPECT_THAT(refused<LimitExceeded>(R"({"plant": {"f2": {"uniform": [0, 0.05]}}, "audit": {"trials": 0},
+                  "sampling": {"method": "subset_simulation", "trials": 100}})"),
+              ::testing::ElementsAre("/sampling/method"));
+}
+
 TEST_F(Sharing, AStudyBeyondALimitIsRefusedAndOneAtTheLimitIsTaken) {
   service.reset();
   limits.trials = 100;

@@ -39,6 +39,38 @@ TEST_F(Views, OfARunningStudyAreOfItsFinishedTrials) {
   wait_for_end(id);
 }
 
+TEST_F(Views, OfAStudyThatSeeksFailuresAreRefusedForItsWeightedSummary) {
+  const std::string spec = R"({"plant": {"m1": {"uniform": [0.8, 1.2]}, "f2": {"uniform": [0, 0.05]}}, "horizon": 60,
+      "audit": {"trials": 0}, "sampling": {"method": "importance", "trials": 2000, "seed": 5}})";
+  const std::string id = service->submit(spec).state.id;
+  wait_for(id, StudyStatus::succeeded);
+  const Study study = decode_study(spec, {});
+  json expected = json_of(summary_json(summarise(study, run_study(study, {}))));
+  json summary = json_of(service->summary(id).json);
+  EXPECT_FALSE(summary["rare_failures"].is_null());
+  EXPECT_EQ(summary["rare_failures"], expected["rare_failures"]);
+  EXPECT_EQ(summary["success_rate"], expected["success_rate"]);
+  EXPECT_THROW(static_cast<void>(service->study_view(id)), BadUsage);
+  EXPECT_THROW(static_cast<void>(service->success_map(id, "plant.m1", "plant.f2")), BadUsage);
+  EXPECT_THROW(static_cast<void>(service->compare(id, id)), StudiesDoNotPair);
+  EXPECT_EQ(json_of(service->trial_view(id, 3))["index"], 3);
+}
+
+TEST_F(Views, OfARunningStudyThatSeeksFailuresItsSummaryIsWeightedToo) {
+  const std::string id = service
+                             ->submit(R"({"plant": {"m1": {"uniform": [0.8, 1.2]}, "f2": {"uniform": [0, 0.05]}},
+      "audit": {"trials": 0}, "sampling": {"method": "importance", "trials": 1000000}})")
+                             .state.id;
+  wait_for_kept_trials(id);
+  const json summary = json_of(service->summary(id).json);
+  EXPECT_FALSE(summary["complete"].get<bool>());
+  EXPECT_EQ(summary["rare_failures"]["method"], "importance");
+  EXPECT_TRUE(summary["metrics"]["settling_time"].is_null());
+  EXPECT_THROW(static_cast<void>(service->study_view(id)), BadUsage);
+  service->cancel_or_remove(id);
+  wait_for_end(id);
+}
+
 TEST_F(Views, OfATrialEndAsTheTrialDid) {
   const std::string id = service->submit(quick_spec(20)).state.id;
   wait_for(id, StudyStatus::succeeded);
