@@ -139,10 +139,9 @@ class StudyService {
   // What a page draws of them: documents of schemas/view.schema.json.
 
   /// A study, without maps. Kept while it is asked for; of a running one it is made anew now and then.
-  /// @throws BadUsage for a study that seeks failures, as do its maps
   [[nodiscard]] std::shared_ptr<const std::string> study_view(const std::string& id) const;
 
-  /// @throws NoSuchAxis and BadUsage as success_map() does
+  /// @throws NoSuchAxis and BadUsage as success_map() does, and BadUsage for a study that seeks failures
   [[nodiscard]] std::string success_map(const std::string& id, std::string_view x, std::string_view y) const;
 
   /// Computes a finished trial again. @throws as trajectory()

@@ -22,15 +22,14 @@ namespace {
 void require_trials_as_they_come(const StudyEntry& entry) {
   if (!seeks_failures(entry.study->sampling.method)) return;
   throw BadUsage(fmt::format(
-      "study {} draws its trials where failures are, and what a page draws counts trials as they come; read its "
-      "summary, or weigh the trials of its result file",
+      "study {} draws its trials where failures are, and a map counts trials as they come; read its summary, or "
+      "weigh the trials of its result file",
       entry.id));
 }
 
 }  // namespace
 
 StudyViews::Text StudyReader::study_view(const StudyEntry& entry) {
-  require_trials_as_they_come(entry);
   const StudyState state = catalogue_.state(entry);
   return views_.view(entry.id, state.revision, state.status == StudyStatus::running, [&] {
     const std::shared_ptr<const KeptStudy> kept = everything(entry);
