@@ -62,11 +62,14 @@ class LaunchedStudies : public ServiceCase {
     EXPECT_THAT(files_called(id, "launched"), ::testing::IsEmpty());
   }
 
-  /// Begins a study and waits until some of its trials are kept. It goes well, too, where it has ended by then.
-  std::string begun_and_kept() {
-    const std::string id = service->submit(quick_spec(some_trials)).state.id;
-    wait_for_kept_trials(id);
+  /// Begins a study of many quick trials and waits until some are finished, or all.
+  std::string begun() {
+    const std::string id = service->submit(quick_spec(many_trials)).state.id;
+    wait_until(id, [](const StudyState& state) { return state.completed > 0 || is_over(state.status); });
     return id;
+  }
+  void cancel(const std::string& id) {
+    if (!is_over(service->state(id)->status)) service->cancel_or_remove(id);
   }
 
   /// Runs a study that continues one which was begun, and expects that it does not run all of its trials.
@@ -90,7 +93,6 @@ class LaunchedStudies : public ServiceCase {
     return names;
   }
 
-  static constexpr std::uint64_t some_trials = 150'000;
   std::string said_ = (scratch.path() / "said").string();
 };
 
@@ -130,23 +132,23 @@ TEST_F(LaunchedStudies, ExtendAStudyWithoutRunningItsTrialsAgain) {
 
 TEST_F(LaunchedStudies, ExtendOneThatWasCancelled) {
   begin_telling();
-  service->cancel_or_remove(begun_and_kept());
-  expect_continuation(quick_spec(some_trials + 1000));
+  cancel(begun());
+  expect_continuation(quick_spec(many_trials + 1000));
 }
 
 TEST_F(LaunchedStudies, ExtendOneThatWasKilled) {
   begin_telling();
-  const std::string id = begun_and_kept();
+  const std::string id = begun();
   if (auto process = LaunchedProcess::find(home(id) / "launched.process")) process->send(SIGKILL);
   wait_for_end(id);
-  expect_continuation(quick_spec(some_trials + 1000));
+  expect_continuation(quick_spec(many_trials + 1000));
 }
 
 TEST_F(LaunchedStudies, GoOnFromTrialsThatRanInTheServiceItself) {
   begin();
-  service->cancel_or_remove(begun_and_kept());
+  cancel(begun());
   begin_telling();
-  expect_continuation(quick_spec(some_trials + 1000));
+  expect_continuation(quick_spec(many_trials + 1000));
 }
 
 TEST_F(LaunchedStudies, FailWithWhatTheLauncherSaid) {
