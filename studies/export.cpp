@@ -13,7 +13,8 @@
 namespace steerstat {
 namespace {
 
-constexpr const char* epilogue = R"(One row a trial: index, cell, every value that varied, then how the trial ended.
+constexpr const char* export_epilogue =
+    R"(One row a trial: index, cell, every value that varied, then how the trial ended.
 Numbers read back to the same bits.
 
 Examples:
@@ -23,17 +24,17 @@ Examples:
 }  // namespace
 
 void add_export(CLI::App& program, ExitCode& exit_code) {
-  struct Request {
+  struct ExportRequest {
     std::string file;
     std::string output;
   };
   CLI::App* command = program.add_subcommand("export", "Write the trials of a result file as CSV");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<ExportRequest>();
   command->add_option("RESULT", request->file, "The result file (.h5)")->required()->option_text(" ");
   command->add_option("-o,--output", request->output, "The CSV file to write; - writes standard output")
       ->required()
       ->type_name("FILE");
-  command->footer(epilogue);
+  command->footer(export_epilogue);
   command->callback([request, &exit_code] {
     const std::filesystem::path output(request->output);
     if (output != "-" && output.extension() != ".csv") {

@@ -20,7 +20,7 @@
 namespace steerstat {
 namespace {
 
-constexpr const char* epilogue =
+constexpr const char* merge_epilogue =
     R"(Puts together what `run SPEC --shard I/N` has written for every I from 1 to N, in any order. The result is the same as
 that of one run of the whole study, byte for byte in every dataset: a "stop" in the spec is heeded here, trajectories are
 retained here and the audit is made here. Of its attributes, wall_s is the sum of the shards', threads the most and simd
@@ -36,14 +36,14 @@ Examples:
   steerstat merge shard-*.h5 -o result.h5
   steerstat merge shards/*.h5 -o result.h5 --summary summary.json --junit gates.xml)";
 
-struct Request {
+struct MergeRequest {
   std::vector<std::string> shards;
   std::string result;
   StudyReport report;
   unsigned threads{0};
 };
 
-void check_outputs(const Request& request) {
+void check_outputs(const MergeRequest& request) {
   if (request.result == "-") {
     throw BadUsage("-o: a result file cannot go to standard output (HDF5 is not a stream); name a file");
   }
@@ -66,7 +66,7 @@ StudyResult merged(JoinedShares& joined, const RunOptions& options) {
   return result;
 }
 
-ExitCode merge(const Request& request) {
+ExitCode merge(const MergeRequest& request) {
   check_outputs(request);
   const Interruption interruption;
   JoinedShares joined = join_shares(std::vector<std::filesystem::path>(request.shards.begin(), request.shards.end()));
@@ -92,7 +92,7 @@ ExitCode merge(const Request& request) {
 
 void add_merge(CLI::App& program, ExitCode& exit_code) {
   CLI::App* command = program.add_subcommand("merge", "Put the shards of a study together");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<MergeRequest>();
   command->add_option("SHARD", request->shards, "The result files of all its shards (.h5)")
       ->required()
       ->option_text("...");
@@ -101,7 +101,7 @@ void add_merge(CLI::App& program, ExitCode& exit_code) {
   command->add_option("--threads", request->threads, "Threads for the audit, 1 to 1024; one a core unless given")
       ->type_name("N")
       ->check(CLI::Range(1U, 1024U).description(""));
-  command->footer(epilogue);
+  command->footer(merge_epilogue);
   command->callback([request, &exit_code] { exit_code = merge(*request); });
 }
 

@@ -23,7 +23,7 @@
 namespace steerstat {
 namespace {
 
-constexpr const char* epilogue = R"(Examples:
+constexpr const char* program_epilogue = R"(Examples:
   steerstat validate study.json                  check a spec
   steerstat run study.json -o result.h5          run it, keep every trial, print the summary
   steerstat show result.h5                       print the summary again
@@ -98,7 +98,7 @@ ExitCode parse_and_run(int argc, const char* const* argv) {
   program.get_formatter()->label("SUBCOMMAND", "COMMAND");
   program.get_formatter()->label("REQUIRED", "(required)");
   program.get_formatter()->label("Positionals", "Arguments");
-  program.footer(epilogue);
+  program.footer(program_epilogue);
   add_run(program, exit_code);
   add_validate(program, exit_code);
   add_show(program, exit_code);

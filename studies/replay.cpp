@@ -20,14 +20,15 @@
 namespace steerstat {
 namespace {
 
-constexpr const char* epilogue = R"(The trial is recomputed from the parameters stored in the file, and must end in the
+constexpr const char* replay_epilogue =
+    R"(The trial is recomputed from the parameters stored in the file, and must end in the
 same bits as the stored trial, where its row was kept. Columns: t,q1,q2,q1_dot,q2_dot,a,tau,phase.
 
 Examples:
   steerstat replay result.h5 --trial 17 | less
   steerstat replay result.h5 --trial 17 -o trial-17.json)";
 
-struct Request {
+struct ReplayRequest {
   std::string file;
   std::string trial;
   std::string output{"-"};
@@ -77,7 +78,7 @@ void require_same_end(const TrialOutcome& now, const TrialOutcome& then, const S
                                why));
 }
 
-ExitCode run(const Request& request) {
+ExitCode run(const ReplayRequest& request) {
   const std::filesystem::path output(request.output);
   require_known_format(output);
   if (output != "-") require_writable(output);
@@ -112,12 +113,12 @@ ExitCode run(const Request& request) {
 
 void add_replay(CLI::App& program, ExitCode& exit_code) {
   CLI::App* command = program.add_subcommand("replay", "Recompute the trajectory of one trial of a result file");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<ReplayRequest>();
   command->add_option("RESULT", request->file, "The result file (.h5)")->required()->option_text(" ");
   command->add_option("--trial", request->trial, "The trial's index")->required()->type_name("I");
   command->add_option("-o,--output", request->output, "Write .csv or .json instead of CSV to standard output")
       ->type_name("FILE");
-  command->footer(epilogue);
+  command->footer(replay_epilogue);
   command->callback([request, &exit_code] { exit_code = run(*request); });
 }
 

@@ -17,7 +17,7 @@
 namespace steerstat {
 namespace {
 
-constexpr const char* epilogue =
+constexpr const char* report_epilogue =
     R"(One HTML file with its data inside: any browser opens it, and it asks no other host for anything. It stays below
 5 MB: of more than 10,000 trials those shown one by one are a random choice, maps count all, and each says of how many.
 Up to 50 failed trials and 10 that converged can be opened. Of a study that seeks failures, or keeps no rows of some
@@ -26,12 +26,12 @@ trials, it leaves out what would count trials as they come.
 Example:
   steerstat report result.h5 -o result.html)";
 
-struct Request {
+struct ReportRequest {
   std::string file;
   std::string output;
 };
 
-ExitCode run(const Request& request) {
+ExitCode run(const ReportRequest& request) {
   const std::filesystem::path output(request.output);
   if (const PageFiles files = embedded_page(); !files.absence.empty()) throw RunFailure(missing_page(files));
   check_outputs({{"--output", request.output}}, {{"the result file", request.file}});
@@ -59,10 +59,10 @@ ExitCode run(const Request& request) {
 
 void add_report(CLI::App& program, ExitCode& exit_code) {
   CLI::App* command = program.add_subcommand("report", "Write one self-contained HTML page of a result file's figures");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<ReportRequest>();
   command->add_option("RESULT", request->file, "The result file (.h5)")->required()->option_text(" ");
   command->add_option("-o,--output", request->output, "Where to write the page")->required()->type_name("HTML");
-  command->footer(epilogue);
+  command->footer(report_epilogue);
   command->callback([request, &exit_code] { exit_code = run(*request); });
 }
 

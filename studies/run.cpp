@@ -30,7 +30,8 @@
 namespace steerstat {
 namespace {
 
-constexpr const char* epilogue = R"(The summary goes to standard output as a table; progress and messages go to standard
+constexpr const char* run_epilogue =
+    R"(The summary goes to standard output as a table; progress and messages go to standard
 error. Without -o the trials themselves are not kept.
 
 After the last trial some are computed again with SUNDIALS at a hundredth of the tolerance, and the summary says how
@@ -63,7 +64,7 @@ Examples:
   mpirun -n 4 steerstat run study.json -o result.h5
   make-study | steerstat run - -o result.h5)";
 
-struct Request {
+struct RunRequest {
   std::string spec;
   std::optional<std::string> result;  ///< without it the trials are not kept
   StudyReport report;
@@ -75,7 +76,7 @@ struct Request {
   Sharing sharing;
 };
 
-void check_outputs(const Request& request) {
+void check_outputs(const RunRequest& request) {
   if (request.resume && !request.result) {
     throw BadUsage(
         "--resume: without -o no trials are kept to go on with; name the result file of the interrupted run");
@@ -91,7 +92,7 @@ void check_outputs(const Request& request) {
 }
 
 /// @throws BadUsage for what is no share, and for what only a whole study has
-std::optional<StudyShare> share_of(const Request& request) {
+std::optional<StudyShare> share_of(const RunRequest& request) {
   if (!request.shard) return std::nullopt;
   const std::optional<StudyShare> share = parse_share(*request.shard);
   if (!share) {
@@ -106,7 +107,7 @@ std::optional<StudyShare> share_of(const Request& request) {
 }
 
 /// @throws BadUsage for a study that has to see its trials in order, where they run in several places
-void require_together(const Study& study, const Request& request, const Ranks* ranks) {
+void require_together(const Study& study, const RunRequest& request, const Ranks* ranks) {
   if (study.store == Store::all || !study.stop || (!request.shard && ranks == nullptr)) return;
   throw BadUsage(fmt::format(
       "{}: the spec has a \"stop\" and does not store all rows (a sketch of trials beyond the stop cannot be cut where "
@@ -116,7 +117,7 @@ void require_together(const Study& study, const Request& request, const Ranks* r
 
 /// @param durable  null where the trials are not kept
 /// @param ranks    null where this process is alone
-StudyResult run_trials(const Study& study, const Request& request, InstructionSet simd,
+StudyResult run_trials(const Study& study, const RunRequest& request, InstructionSet simd,
                        const Interruption& interruption, DurableRun* durable, Ranks* ranks) {
   ProgressDisplay display(request.no_progress ? ProgressStyle::none : progress_style(), interruption.token());
   RunOptions options;
@@ -130,7 +131,7 @@ StudyResult run_trials(const Study& study, const Request& request, InstructionSe
 }
 
 /// The kind of study that has no trials to keep.
-ExitCode run_of_approximation(const ApproximationStudy& study, const Request& request) {
+ExitCode run_of_approximation(const ApproximationStudy& study, const RunRequest& request) {
   if (request.result) {
     throw BadUsage("-o: an approximation study keeps no trials (its cycles are no trials); use --summary FILE");
   }
@@ -142,7 +143,7 @@ ExitCode run_of_approximation(const ApproximationStudy& study, const Request& re
   return run_approximation_study(study, request.report.summary);
 }
 
-std::optional<Baseline> read_baseline(const Request& request, const Study& study) {
+std::optional<Baseline> read_baseline(const RunRequest& request, const Study& study) {
   if (request.report.baseline == "-" && request.spec == "-") {
     throw BadUsage("the spec and --baseline cannot both come from standard input; name a file for one of them");
   }
@@ -150,7 +151,7 @@ std::optional<Baseline> read_baseline(const Request& request, const Study& study
 }
 
 /// Says that a run ended early, where it did. @return whether it did
-bool tell_of_interruption(const Study& study, const Request& request, const StudyResult& result) {
+bool tell_of_interruption(const Study& study, const RunRequest& request, const StudyResult& result) {
   const std::uint64_t finished = result.finished();
   const std::uint64_t audited = result.audit.trials.size();
   if (result.share) {
@@ -176,7 +177,7 @@ bool tell_of_interruption(const Study& study, const Request& request, const Stud
 /// A study whose trials follow from those before, so that it runs whole or not at all.
 ///
 /// @param ranks  null where this process is alone
-ExitCode run_by_levels(const Study& study, const Request& request, InstructionSet simd, const Ranks* ranks) {
+ExitCode run_by_levels(const Study& study, const RunRequest& request, InstructionSet simd, const Ranks* ranks) {
   constexpr const char* why = "subset_simulation draws its trials from those before";
   if (request.resume) throw BadUsage(fmt::format("--resume: {}, and keeps none until the last; run it anew", why));
   if (request.shard) throw BadUsage(fmt::format("--shard: {}, so that no part can run alone; run it whole", why));
@@ -208,7 +209,7 @@ ExitCode run_by_levels(const Study& study, const Request& request, InstructionSe
 }
 
 /// @param ranks  null where this process is alone
-ExitCode run(const Request& request, Ranks* ranks) {
+ExitCode run(const RunRequest& request, Ranks* ranks) {
   const InstructionSet simd = request.simd ? choose_simd(*request.simd) : best_instruction_set();
   const std::variant<Study, ApproximationStudy> spec = read_any_study(request.spec);
   if (const auto* approximation = std::get_if<ApproximationStudy>(&spec)) {
@@ -236,7 +237,7 @@ ExitCode run(const Request& request, Ranks* ranks) {
 }
 
 /// What a rank does that does not lead: works, and says nothing.
-ExitCode follow(Ranks& ranks, const Request& request) {
+ExitCode follow(Ranks& ranks, const RunRequest& request) {
   const Interruption interruption;
   WorkOptions options;
   options.threads = request.threads;
@@ -248,7 +249,7 @@ ExitCode follow(Ranks& ranks, const Request& request) {
 }
 
 /// Leads, and lets the other ranks end as this one does, however it does.
-ExitCode lead(Ranks& ranks, const Request& request) {
+ExitCode lead(Ranks& ranks, const RunRequest& request) {
   const auto ended = [&ranks](ExitCode code) {
     end_ranks(ranks, static_cast<int>(code));
     return code;
@@ -268,7 +269,7 @@ ExitCode lead(Ranks& ranks, const Request& request) {
 }
 
 /// @throws BadUsage for what is for several processes, where there is one
-void require_ranks(const Request& request) {
+void require_ranks(const RunRequest& request) {
   const char* option = request.sharing.gather ? "--gather" : request.sharing.seconds_a_range ? "--ask-every" : nullptr;
   if (option == nullptr) return;
   if (request.shard) {
@@ -281,7 +282,7 @@ void require_ranks(const Request& request) {
   }
 }
 
-ExitCode run_alone_or_together(const Request& request) {
+ExitCode run_alone_or_together(const RunRequest& request) {
   require_ranks(request);
   // A shard is a run of its own, even where one command starts several.
   const std::unique_ptr<Ranks> ranks = request.shard ? nullptr : join_ranks();
@@ -293,7 +294,7 @@ ExitCode run_alone_or_together(const Request& request) {
 
 void add_run(CLI::App& program, ExitCode& exit_code) {
   CLI::App* command = program.add_subcommand("run", "Run a study and summarise it");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<RunRequest>();
   command->add_option("SPEC", request->spec, "The study's JSON file; - reads standard input")
       ->required()
       ->option_text(" ");
@@ -320,7 +321,7 @@ void add_run(CLI::App& program, ExitCode& exit_code) {
       ->type_name("S")
       ->check(CLI::Range(0.001, 86400.0).description(""));
   command->add_flag("--no-progress", request->no_progress, "Do not show progress");
-  command->footer(epilogue);
+  command->footer(run_epilogue);
   command->callback([request, &exit_code] { exit_code = run_alone_or_together(*request); });
 }
 

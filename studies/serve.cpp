@@ -23,7 +23,7 @@
 namespace steerstat {
 namespace {
 
-constexpr const char* epilogue =
+constexpr const char* serve_epilogue =
     R"(Keeps studies in a directory, runs them side by side, and answers for them: /openapi.json
 describes the API, / is the dashboard. A study is accepted once it is on the disk; unfinished ones go on at the next
 start. One process serves a directory at a time.
@@ -42,7 +42,7 @@ Examples:
   steerstat serve --host 0.0.0.0 --token-file token
   curl --json @study.json http://127.0.0.1:8080/v1/studies)";
 
-struct Request {
+struct ServeRequest {
   std::string host{"127.0.0.1"};
   std::uint16_t port{8080};
   std::string data{"steerstat-data"};
@@ -52,7 +52,7 @@ struct Request {
   std::string launcher;
 };
 
-DoorOptions door_options(const Request& request) {
+DoorOptions door_options(const ServeRequest& request) {
   DoorOptions options;
   options.host = request.host;
   options.port = request.port;
@@ -94,7 +94,7 @@ std::vector<Asset> page_assets() {
 }
 
 /// The command's words, cut at spaces.
-std::optional<Launcher> launcher_of(const Request& request) {
+std::optional<Launcher> launcher_of(const ServeRequest& request) {
   if (request.launcher.empty()) return std::nullopt;
   Launcher launcher;
   std::istringstream words(request.launcher);
@@ -104,7 +104,7 @@ std::optional<Launcher> launcher_of(const Request& request) {
   return launcher;
 }
 
-ExitCode run(const Request& request) {
+ExitCode run(const ServeRequest& request) {
   HttpServer server(door_options(request));  // first: a port in use is told before any study goes on
   const Interruption interruption;
   const auto tell_line = [](const std::string& line) { tell(line); };
@@ -128,7 +128,7 @@ ExitCode run(const Request& request) {
 
 void add_serve(CLI::App& program, ExitCode& exit_code) {
   CLI::App* command = program.add_subcommand("serve", "Serve studies over HTTP, with a dashboard");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<ServeRequest>();
   command->add_option("--host", request->host, "Listen at this address; 127.0.0.1 unless given")->type_name("ADDRESS");
   command->add_option("--port", request->port, "Listen at this port; 8080 unless given, 0 for a free one")
       ->type_name("PORT");
@@ -146,7 +146,7 @@ void add_serve(CLI::App& program, ExitCode& exit_code) {
       ->add_option("--launcher", request->launcher,
                    "Run each study as a program of its own, COMMAND steerstat run ..., such as \"srun -N4\"")
       ->type_name("COMMAND");
-  command->footer(epilogue);
+  command->footer(serve_epilogue);
   command->callback([request, &exit_code] { exit_code = run(*request); });
 }
 

@@ -21,7 +21,7 @@
 namespace steerstat {
 namespace {
 
-constexpr const char* epilogue =
+constexpr const char* show_epilogue =
     R"(The gates are judged again from the trials, and shown; the exit code does not depend on them. A baseline is not
 stored with the trials, so its verdict is not among them.
 
@@ -34,7 +34,7 @@ Examples:
 alone, with its interval; of a study of sobol_indices also the indices of its design. With correlated inputs an index
 counts what the input shares with others as its own.)";
 
-struct Request {
+struct ShowRequest {
   std::string file;
   bool json{false};
   bool sensitivity{false};
@@ -57,7 +57,7 @@ std::vector<Metric> chosen_outputs(const std::vector<std::string>& names) {
   return outputs;
 }
 
-void show_sensitivity(const Request& request, const StoredStudy& stored, std::span<const Metric> outputs) {
+void show_sensitivity(const ShowRequest& request, const StoredStudy& stored, std::span<const Metric> outputs) {
   const Plan plan(stored.study);
   SensitivityReport report;
   report.id = study_id(stored.study);
@@ -68,7 +68,7 @@ void show_sensitivity(const Request& request, const StoredStudy& stored, std::sp
   print(request.json ? sensitivity_json(report) : sensitivity_text(report, wants_colour(StandardStream::output)));
 }
 
-ExitCode show(const Request& request) {
+ExitCode show(const ShowRequest& request) {
   if (!request.metrics.empty() && !request.sensitivity) {
     throw BadUsage("--metric chooses what --sensitivity is of; add --sensitivity");
   }
@@ -98,7 +98,7 @@ ExitCode show(const Request& request) {
 
 void add_show(CLI::App& program, ExitCode& exit_code) {
   CLI::App* command = program.add_subcommand("show", "Print the summary of a result file, recomputed from its trials");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<ShowRequest>();
   command->add_option("RESULT", request->file, "The result file (.h5)")->required()->option_text(" ");
   command->add_flag("--json", request->json, "Print JSON instead of a table");
   command->add_flag("--sensitivity", request->sensitivity, "Which input drives success and settling time");
@@ -109,7 +109,7 @@ void add_show(CLI::App& program, ExitCode& exit_code) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   request->reports.add_options(*command);
-  command->footer(epilogue);
+  command->footer(show_epilogue);
   command->callback([request, &exit_code] { exit_code = show(*request); });
 }
 

@@ -13,7 +13,7 @@
 namespace steerstat {
 namespace {
 
-constexpr const char* epilogue = R"(Examples:
+constexpr const char* validate_epilogue = R"(Examples:
   steerstat validate study.json
   make-study | steerstat validate -
 
@@ -50,7 +50,7 @@ void add_validate(CLI::App& program, ExitCode& exit_code) {
   CLI::App* command = program.add_subcommand("validate", "Check a study spec without running it");
   const auto spec = std::make_shared<std::string>();
   command->add_option("SPEC", *spec, "The study's JSON file; - reads standard input")->required()->option_text(" ");
-  command->footer(epilogue);
+  command->footer(validate_epilogue);
   command->callback([spec, &exit_code] {
     const std::variant<Study, ApproximationStudy> study = read_any_study(*spec);
     print(std::visit([](const auto& of_its_kind) { return describe(of_its_kind); }, study));

@@ -1,15 +1,12 @@
 #include <nlohmann/json.hpp>
 
 #include "report/approximation_summary.hpp"
+#include "report/number_json.hpp"
 
 namespace steerstat {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json number_or_null(std::optional<double> value) {
-  return value ? Json(*value) : Json(nullptr);
-}
 
 Json cell_json(const ApproximationSummary::Cell& cell) {
   Json json = {{"sweep", Json::object()}, {"errors", Json::object()}};

@@ -15,9 +15,6 @@ using Cell = ApproximationSummary::Cell;
 
 constexpr std::size_t most_rows = 60;
 
-const fmt::text_style bold = fmt::emphasis::bold;
-const fmt::text_style faint = fmt::emphasis::faint;
-
 /// What the columns of the tables of cells are.
 struct Shown {
   const char* measure;
@@ -36,13 +33,14 @@ std::size_t index_of(std::string_view name) {
   return static_cast<std::size_t>(found - measures.begin());
 }
 
-std::string number(double x) {
+std::string error_text(double x) {
   if (x >= 1e-2 && x < 1e5) return fmt::format("{:.3g}", x);
   return fmt::format("{:.1e}", x);
 }
 
 std::string quantiles(const SampleStatistics& error, double scale) {
-  return fmt::format("{} {} {}", number(scale * error.p50), number(scale * error.p95), number(scale * error.max));
+  return fmt::format("{} {} {}", error_text(scale * error.p50), error_text(scale * error.p95),
+                     error_text(scale * error.max));
 }
 
 /// A table of one measure, a row a cell: what is swept, then the median, the 95 % quantile and the largest error.
@@ -60,7 +58,7 @@ std::string measure_text(const std::vector<Cell>& cells, const Shown& what, bool
     }
     const SampleStatistics& error = cells[row].errors[index_of(what.measure)];
     for (const double value : {error.p50, error.p95, error.p99, error.max}) {
-      line.push_back({number(what.scale * value)});
+      line.push_back({error_text(what.scale * value)});
     }
     table.add_row(std::move(line));
   }

@@ -62,7 +62,7 @@ void require_same_cells(const Plan& plan, const Baseline& baseline) {
 }
 
 /// One success rate held against another's.
-struct Comparison {
+struct Held {
   std::optional<ProportionDrop> drop;
   std::optional<double> detectable;
   GateVerdict gate;
@@ -70,8 +70,7 @@ struct Comparison {
 
 /// @param drop   its lower limit at the level over `cells`, its upper limit at the level
 /// @param cells  that are compared, 1 without sweeps
-Judgement judge_drop(const Comparison& comparison, const BaselineTest& test, std::size_t cells,
-                     std::string_view shortfall) {
+Judgement judge_drop(const Held& comparison, const BaselineTest& test, std::size_t cells, std::string_view shortfall) {
   const ProportionDrop& drop = *comparison.drop;
   const std::string limits = fmt::format("limits {:.3g} to {:.3g}", drop.low, drop.high);
   const std::string among = cells > 1 ? fmt::format(" over {} cells", cells) : "";
@@ -89,9 +88,9 @@ Judgement judge_drop(const Comparison& comparison, const BaselineTest& test, std
   return {Verdict::inconclusive, fmt::format("{}: {}; run more trials", limits, found)};
 }
 
-Comparison hold(const ProportionCount& before, const TrialStatistics& statistics, const BaselineTest& test,
-                std::size_t cells, std::string_view shortfall) {
-  Comparison result;
+Held hold(const ProportionCount& before, const TrialStatistics& statistics, const BaselineTest& test, std::size_t cells,
+          std::string_view shortfall) {
+  Held result;
   GateVerdict& gate = result.gate;
   gate.metric = "success_rate";
   gate.expr = fmt::format("drop < {}", test.margin);
@@ -142,7 +141,7 @@ void judge_against(const Baseline& baseline, const BaselineTest& test, Summary& 
                                 baseline.seed, baseline.converged, test,
                                 std::nullopt,  std::nullopt,       {}};
   if (summary.cells.empty()) {
-    Comparison whole = hold(baseline.converged, summary.all, test, 1, shortfall);
+    Held whole = hold(baseline.converged, summary.all, test, 1, shortfall);
     comparison.drop = whole.drop;
     comparison.detectable_drop = whole.detectable;
     summary.gates.push_back(std::move(whole.gate));
@@ -150,7 +149,7 @@ void judge_against(const Baseline& baseline, const BaselineTest& test, Summary& 
   for (const Summary::Cell& cell : summary.cells) {
     const Baseline::Cell* before = find_cell(baseline, cell.sweep);
     if (before == nullptr) throw BadUsage("--baseline: it has no cell " + cell_text(cell.sweep));
-    Comparison part = hold(before->converged, cell.statistics, test, summary.cells.size(), shortfall);
+    Held part = hold(before->converged, cell.statistics, test, summary.cells.size(), shortfall);
     part.gate.cell = cell.sweep;
     comparison.cells.push_back({cell.sweep, before->converged, part.drop, part.detectable});
     summary.gates.push_back(std::move(part.gate));

@@ -2,15 +2,12 @@
 #include <nlohmann/json.hpp>
 
 #include "report/comparison.hpp"
+#include "report/number_json.hpp"
 
 namespace steerstat {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json number_or_null(std::optional<double> value) {
-  return value ? Json(*value) : Json(nullptr);
-}
 
 Json side_json(const Comparison::Side& side) {
   return {{"id", side.id},

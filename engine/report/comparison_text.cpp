@@ -12,16 +12,8 @@ namespace {
 
 using Align = TextTable::Align;
 
-constexpr std::size_t most_cells = 30;
+constexpr std::size_t most_listed = 30;
 constexpr std::size_t longest_value = 60;
-const char* const no_data = "–";
-
-const fmt::text_style bold = fmt::emphasis::bold;
-const fmt::text_style faint = fmt::emphasis::faint;
-
-std::string counted(std::uint64_t count, const char* noun) {
-  return fmt::format("{} {}{}", readable_count(count), noun, count == 1 ? "" : "s");
-}
 
 std::string side_text(const char* letter, const Comparison::Side& side, bool colour) {
   return fmt::format(
@@ -85,7 +77,7 @@ std::string success_text(const PairedStatistics& all, bool colour) {
   return text;
 }
 
-std::string interval_text(const SampleInterval& interval) {
+std::string interval_note(const SampleInterval& interval) {
   if (!interval.low || !interval.high) return {};
   return fmt::format(" ({} % interval {:+.2f} to {:+.2f})", 100.0 * comparison_level, *interval.low, *interval.high);
 }
@@ -97,7 +89,7 @@ std::string settling_text(const PairedStatistics& all) {
   return fmt::format(
       "  Settling time where both converged, B less A [s]:\n"
       "    mean {:+.2f}{}, median {:+.2f}{}; 5 % {:+.2f}, 95 % {:+.2f}\n",
-      sample.mean, interval_text(difference->mean), sample.p50, interval_text(difference->median), sample.p05,
+      sample.mean, interval_note(difference->mean), sample.p50, interval_note(difference->median), sample.p05,
       sample.p95);
 }
 
@@ -134,7 +126,7 @@ std::string cells_text(const std::vector<Comparison::Cell>& cells, bool colour) 
                                  {"p (Holm)"},
                                  {"Median B - A [s]"}});
   TextTable table(columns);
-  const std::size_t listed = std::min(cells.size(), most_cells);
+  const std::size_t listed = std::min(cells.size(), most_listed);
   for (std::size_t i = 0; i < listed; ++i) table.add_row(cell_row(cells[i]));
   std::string text = '\n' + table.text(colour);
   if (listed < cells.size()) {

@@ -12,8 +12,6 @@ namespace {
 using Align = TextTable::Align;
 
 constexpr std::size_t most_gates = 30;
-const char* const no_data = "–";
-const fmt::text_style faint = fmt::emphasis::faint;
 
 fmt::text_style style_of(Verdict verdict) {
   if (verdict == Verdict::pass) return fg(fmt::terminal_color::green);

@@ -10,8 +10,7 @@
 namespace steerstat {
 namespace {
 
-constexpr std::size_t most_cells = 50;  // GitHub cuts a job summary at 1 MiB
-const char* const no_data = "–";
+constexpr std::size_t most_rows = 50;  // GitHub cuts a job summary at 1 MiB
 
 /// Text that shows as it is. Character references are never taken for markup, in tables either.
 std::string literal(const std::string& text) {
@@ -43,7 +42,7 @@ std::string number(const std::optional<double>& value) {
   return value ? fmt::format("{:.6g}", *value) : no_data;
 }
 
-std::string interval_text(const SampleInterval& interval) {
+std::string gate_interval(const SampleInterval& interval) {
   if (!interval.low && !interval.high) return no_data;
   return fmt::format("{} to {}", number(interval.low), number(interval.high));
 }
@@ -54,7 +53,7 @@ std::string gates_table(const Summary& summary) {
                                  100.0 * summary.intervals.level);
   for (const GateVerdict& gate : summary.gates) {
     text += fmt::format("| {} | {} | {} | {} | {} |\n", icon(gate.verdict), code(gate_title(gate)), number(gate.value),
-                        interval_text(gate.interval), literal(gate.reason));
+                        gate_interval(gate.interval), literal(gate.reason));
   }
   return text + '\n';
 }
@@ -98,7 +97,7 @@ std::string metrics_table(const TrialStatistics& statistics) {
 std::string cells_table(const Summary& summary) {
   if (summary.cells.empty()) return {};
   std::string text = "| Cell | Trials | Success rate |\n|---|--:|---|\n";
-  for (std::size_t i = 0; i < summary.cells.size() && i < most_cells; ++i) {
+  for (std::size_t i = 0; i < summary.cells.size() && i < most_rows; ++i) {
     const Summary::Cell& cell = summary.cells[i];
     std::string name;
     for (const Plan::SweptValue& swept : cell.sweep) {
@@ -107,8 +106,8 @@ std::string cells_table(const Summary& summary) {
     text += fmt::format("| {} | {} | {} |\n", code(name), readable_count(cell.statistics.completed),
                         rate_text(cell.statistics));
   }
-  if (summary.cells.size() > most_cells) {
-    text += fmt::format("\nThe first {} of {} cells.\n", most_cells, readable_count(summary.cells.size()));
+  if (summary.cells.size() > most_rows) {
+    text += fmt::format("\nThe first {} of {} cells.\n", most_rows, readable_count(summary.cells.size()));
   }
   return text + '\n';
 }

@@ -3,14 +3,12 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "report/number_json.hpp"
+
 namespace steerstat {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json number_or_null(std::optional<double> value) {
-  return value ? Json(*value) : Json(nullptr);
-}
 
 void append(Json& json, const WeightedFailures& found) {
   json["failures"] = found.failures;

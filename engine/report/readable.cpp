@@ -14,6 +14,10 @@ std::string readable_count(std::uint64_t count) {
   return digits;
 }
 
+std::string counted(std::uint64_t count, const char* noun) {
+  return fmt::format("{} {}{}", readable_count(count), noun, count == 1 ? "" : "s");
+}
+
 std::string readable_share(double share, std::uint64_t trials) {
   const int digits = static_cast<int>(fmt::formatted_size("{}", trials));
   const int decimals = std::clamp(digits - 2, 1, 9);  // one trial is more than one unit of the last

@@ -7,8 +7,14 @@
 /// Numbers as a person likes to read them. All are pure and thread-safe, whatever the locale.
 namespace steerstat {
 
+/// What stands for a number that there is not.
+constexpr const char* no_data = "–";
+
 /// "1,234,567"
 std::string readable_count(std::uint64_t count);
+
+/// "1 trial", "1,234 trials"
+std::string counted(std::uint64_t count, const char* noun);
 
 /// A share as a percentage, "46.85 %", with the digits that tell one trial of `trials`: only 0 reads as nought and only
 /// 1 as a hundred.

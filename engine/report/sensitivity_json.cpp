@@ -5,7 +5,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number_or_null(const SensitivityIndex* index, double SensitivityIndex::*member) {
+Json member_or_null(const SensitivityIndex* index, double SensitivityIndex::*member) {
   return index != nullptr ? Json(index->*member) : Json(nullptr);
 }
 
@@ -15,12 +15,12 @@ Json sobol_output_json(const SobolSensitivity::Output& output, const std::vector
     const SensitivityIndex* first_order = output.indices ? &(*output.indices)[i].first_order : nullptr;
     const SensitivityIndex* total = output.indices ? &(*output.indices)[i].total : nullptr;
     list.push_back({{"input", inputs[i]},
-                    {"first_order", number_or_null(first_order, &SensitivityIndex::estimate)},
-                    {"ci_low", number_or_null(first_order, &SensitivityIndex::low)},
-                    {"ci_high", number_or_null(first_order, &SensitivityIndex::high)},
-                    {"total", number_or_null(total, &SensitivityIndex::estimate)},
-                    {"total_ci_low", number_or_null(total, &SensitivityIndex::low)},
-                    {"total_ci_high", number_or_null(total, &SensitivityIndex::high)}});
+                    {"first_order", member_or_null(first_order, &SensitivityIndex::estimate)},
+                    {"ci_low", member_or_null(first_order, &SensitivityIndex::low)},
+                    {"ci_high", member_or_null(first_order, &SensitivityIndex::high)},
+                    {"total", member_or_null(total, &SensitivityIndex::estimate)},
+                    {"total_ci_low", member_or_null(total, &SensitivityIndex::low)},
+                    {"total_ci_high", member_or_null(total, &SensitivityIndex::high)}});
   }
   return list;
 }
@@ -32,9 +32,9 @@ Json given_data_json(const GivenDataSensitivity& given) {
     for (std::size_t i = 0; i < given.inputs.size(); ++i) {
       const SensitivityIndex* index = output.indices[i] ? &*output.indices[i] : nullptr;
       list.push_back({{"input", given.inputs[i]},
-                      {"first_order", number_or_null(index, &SensitivityIndex::estimate)},
-                      {"ci_low", number_or_null(index, &SensitivityIndex::low)},
-                      {"ci_high", number_or_null(index, &SensitivityIndex::high)}});
+                      {"first_order", member_or_null(index, &SensitivityIndex::estimate)},
+                      {"ci_low", member_or_null(index, &SensitivityIndex::low)},
+                      {"ci_high", member_or_null(index, &SensitivityIndex::high)}});
     }
     outputs.push_back({{"metric", output.name}, {"trials", output.trials}, {"inputs", std::move(list)}});
   }

@@ -14,9 +14,7 @@ namespace {
 
 using Align = TextTable::Align;
 
-constexpr int bar_width = 24;
-const fmt::text_style bold = fmt::emphasis::bold;
-const fmt::text_style faint = fmt::emphasis::faint;
+constexpr int index_bar_width = 24;
 
 std::string share_text(double share) {
   const std::string text = fmt::format("{:.3f}", share);
@@ -29,7 +27,7 @@ std::string interval_text(const SensitivityIndex& index) {
 
 std::string bar(double low, double high) {
   const double from = std::clamp(low, 0.0, 1.0);
-  return interval_bar(from, std::clamp(high, from, 1.0), bar_width);
+  return interval_bar(from, std::clamp(high, from, 1.0), index_bar_width);
 }
 
 /// Positions by falling key; equal ones stay in their order.

@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "report/number_json.hpp"
 #include "report/rare_failures_json.hpp"
 #include "report/sensitivity_json.hpp"
 #include "report/summary.hpp"
@@ -9,10 +10,6 @@ namespace steerstat {
 namespace {
 
 using Json = nlohmann::ordered_json;  // keys in the order of the interface's description
-
-Json number_or_null(std::optional<double> value) {
-  return value ? Json(*value) : Json(nullptr);
-}
 
 /// @param method  the interval's
 Json success_rate_json(const TrialStatistics& statistics, double level, std::string_view method) {

@@ -21,25 +21,17 @@ constexpr int bar_width = 40;
 constexpr std::size_t most_cells = 30;  // more are shortened to the best and the worst
 constexpr std::size_t best_cells = 15;
 constexpr std::size_t worst_cells = 5;
-const char* const no_data = "–";
-
-const fmt::text_style bold = fmt::emphasis::bold;
-const fmt::text_style faint = fmt::emphasis::faint;
 
 fmt::text_style style_of(Status status) {
   if (status == Status::converged) return fg(fmt::terminal_color::green);
   return fg(status == Status::timeout ? fmt::terminal_color::yellow : fmt::terminal_color::red);
 }
 
-std::string plural(std::uint64_t count, const char* noun) {
-  return fmt::format("{} {}{}", readable_count(count), noun, count == 1 ? "" : "s");
-}
-
 std::string heading(const Summary& summary, bool colour) {
   std::string text = styled(printable(summary.name), bold, colour) + '\n';
-  std::string trials = plural(summary.requested, "trial");
+  std::string trials = counted(summary.requested, "trial");
   if (const std::size_t cells = summary.cells.size(); cells > 0) {
-    trials += fmt::format(" ({} in each of {})", readable_count(summary.requested / cells), plural(cells, "cell"));
+    trials += fmt::format(" ({} in each of {})", readable_count(summary.requested / cells), counted(cells, "cell"));
   }
   if (summary.stop) trials = "at most " + trials;
   text +=
@@ -49,7 +41,7 @@ std::string heading(const Summary& summary, bool colour) {
   if (!summary.complete) {
     const std::string what = summary.share ? "Shard " + share_text(*summary.share) : "Incomplete";
     text += styled(fmt::format("{}: {} of {} finished; what follows is of those.", what,
-                               readable_count(summary.completed), plural(summary.requested, "trial")),
+                               readable_count(summary.completed), counted(summary.requested, "trial")),
                    fg(fmt::terminal_color::yellow) | bold, colour) +
             '\n';
   }
@@ -68,7 +60,7 @@ std::string stop_text(const Summary& summary, bool colour) {
   std::string text =
       fmt::format("  {}  {} after {} of at most {}, at look {}\n", styled("Stopped", bold, colour),
                   reached ? "with the precision asked for" : "short of the precision asked for",
-                  readable_count(report.trials), plural(summary.requested, "trial"), readable_count(report.looks));
+                  readable_count(report.trials), counted(summary.requested, "trial"), readable_count(report.looks));
   for (std::size_t i = 0; i < rule.until.size(); ++i) {
     const PrecisionGoal& goal = rule.until[i];
     const GoalProgress& progress = report.goals[i];
@@ -141,7 +133,7 @@ std::string single_text(const TrialStatistics& all, bool colour) {
   const auto& cycles = all.of("cycles");
   if (settling_time && cycles) {
     text += fmt::format(" after {:.3f} s, {}", settling_time->mean,
-                        plural(static_cast<std::uint64_t>(cycles->mean), "cycle"));
+                        counted(static_cast<std::uint64_t>(cycles->mean), "cycle"));
   }
   text += '\n';
   const auto& effort = all.of("effort");
@@ -257,7 +249,7 @@ std::string audit_text(const AuditStatistics& audit, bool colour) {
   std::string text = fmt::format("  {}  {} with SUNDIALS at tolerance {:.3g} in status, cycles and swings\n",
                                  styled("Audit", bold, colour),
                                  styled(fmt::format("{} of {} agree{}", readable_count(audit.agree),
-                                                    plural(audit.trials, "trial"), audit.trials == 1 ? "s" : ""),
+                                                    counted(audit.trials, "trial"), audit.trials == 1 ? "s" : ""),
                                         fg(all ? fmt::terminal_color::green : fmt::terminal_color::red), colour),
                                  audit.tolerance);
   if (!all) text += fmt::format("         Not trial {}.\n", indices_text(audit.disagree));
@@ -271,8 +263,8 @@ std::string audit_text(const AuditStatistics& audit, bool colour) {
 std::string performance_text(const Summary& summary, bool colour) {
   if (summary.completed == 0 || !(summary.wall_s > 0.0)) return {};
   const double rate = static_cast<double>(summary.completed) / summary.wall_s;
-  return styled(fmt::format("{} in {} on {}{}: {} trials/s", plural(summary.completed, "trial"),
-                            readable_duration(summary.wall_s), plural(summary.threads, "thread"),
+  return styled(fmt::format("{} in {} on {}{}: {} trials/s", counted(summary.completed, "trial"),
+                            readable_duration(summary.wall_s), counted(summary.threads, "thread"),
                             summary.simd ? fmt::format(" with {}", name_of(*summary.simd)) : "", readable_rate(rate)),
                 faint, colour) +
          '\n';
@@ -290,7 +282,7 @@ std::string summary_text(const Summary& summary, bool colour) {
     text += success_text(summary.all, summary.intervals.method, colour);
     if (summary.sensitivity) {
       text += styled(fmt::format("  Of the {} that are independent, A and B of each row.\n",
-                                 plural(summary.all.completed, "trial")),
+                                 counted(summary.all.completed, "trial")),
                      faint, colour);
     }
     if (summary.all.completed > 0) text += '\n' + outcome_text(summary.all, colour);

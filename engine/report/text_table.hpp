@@ -11,6 +11,9 @@ namespace steerstat {
 /// Columns on a terminal that a text takes, counting every code point as one.
 std::size_t display_width(const std::string& utf8);
 
+inline const fmt::text_style bold = fmt::emphasis::bold;
+inline const fmt::text_style faint = fmt::emphasis::faint;
+
 /// `text` in `style` where `colour` is asked for.
 std::string styled(const std::string& text, const fmt::text_style& style, bool colour);
 

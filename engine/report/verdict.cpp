@@ -42,7 +42,7 @@ bool more_may_mend(const GateExpression& expression) {
   }
 }
 
-std::string interval_text(const SampleInterval& interval) {
+std::string bounds_text(const SampleInterval& interval) {
   const auto side = [](const std::optional<double>& limit, const char* without) {
     return limit ? fmt::format("{:.6g}", *limit) : std::string(without);
   };
@@ -53,7 +53,7 @@ Judgement judge_interval(const GateExpression& expression, const SampleInterval&
   // The end of the interval that satisfies the comparison last, and the one that does first.
   const std::optional<double>& hardest = expression.wants_more() ? interval.low : interval.high;
   const std::optional<double>& easiest = expression.wants_more() ? interval.high : interval.low;
-  const std::string text = interval_text(interval);
+  const std::string text = bounds_text(interval);
   if (hardest && expression.holds(*hardest)) return {Verdict::pass, fmt::format("all of the interval, {}", text)};
   if (easiest && !expression.holds(*easiest)) return {Verdict::fail, fmt::format("none of the interval, {}", text)};
   if (!hardest || !easiest) {

@@ -1,23 +1,11 @@
 #include "sampling/correlated_design.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "core/normal.hpp"
 #include "sampling/normal_probability.hpp"
 
 namespace steerstat {
-namespace {
-
-// The nearest to 0 and 1 that designs draw: a sum of normal variables may lie beyond what these can be.
-constexpr double least = 0x1p-53;
-
-double probability(double z) {
-  return std::clamp(quick_normal_probability(z), least, 1.0 - least);
-}
-
-}  // namespace
-
 CorrelatedDesign::CorrelatedDesign(std::shared_ptr<const Design> independent, const CorrelationFactor& factor)
     : independent_(std::move(independent)) {
   for (std::size_t row = factor.size; row-- > 0;) {
@@ -36,7 +24,7 @@ double CorrelatedDesign::coordinate(std::uint64_t draw, std::size_t variable) co
     for (const Term& term : dependent.terms) {
       z += term.weight * normal_quantile(independent_->coordinate(draw, term.variable));
     }
-    return probability(z);
+    return coordinate_of_normal(z);
   }
   return independent_->coordinate(draw, variable);
 }
@@ -47,7 +35,7 @@ void CorrelatedDesign::place(std::uint64_t draw, std::span<double> point) const 
   for (const Dependent& dependent : dependents_) {
     double z = 0.0;
     for (const Term& term : dependent.terms) z += term.weight * normal_quantile(point[term.variable]);
-    point[dependent.variable] = probability(z);
+    point[dependent.variable] = coordinate_of_normal(z);
   }
 }
 

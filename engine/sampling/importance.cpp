@@ -10,14 +10,6 @@
 namespace steerstat {
 namespace {
 
-// The nearest to 0 and 1 that designs draw. A draw beyond is taken for one there: the weight is that of z, so that
-// what the draws estimate stays the same.
-constexpr double least = 0x1p-53;
-
-double probability(double z) {
-  return std::clamp(quick_normal_probability(z), least, 1.0 - least);
-}
-
 const ProposalDensity::Tilt* tilt_of(const ProposalDensity* component, std::size_t variable) {
   if (component == nullptr) return nullptr;
   for (const ProposalDensity::Tilt& tilt : component->tilts) {
@@ -55,7 +47,7 @@ double Importance::normal(std::uint64_t draw, std::size_t variable, const Propos
 double Importance::coordinate(std::uint64_t draw, std::size_t variable) const {
   const ProposalDensity* component = component_of(draw);
   if (tilt_of(component, variable) == nullptr) return streams_[variable].at(draw);
-  return probability(normal(draw, variable, component));
+  return coordinate_of_normal(normal(draw, variable, component));
 }
 
 void Importance::place(std::uint64_t draw, std::span<double> point) const {
@@ -63,7 +55,7 @@ void Importance::place(std::uint64_t draw, std::span<double> point) const {
   const ProposalDensity* component = component_of(draw);
   if (component == nullptr) return;
   for (const ProposalDensity::Tilt& tilt : component->tilts) {
-    point[tilt.variable] = probability(normal(draw, tilt.variable, component));
+    point[tilt.variable] = coordinate_of_normal(normal(draw, tilt.variable, component));
   }
 }
 

@@ -1,5 +1,6 @@
 #include "sampling/normal_probability.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -100,6 +101,11 @@ double quick_normal_probability(double z) {
     return 0.5 + z * (polynomial(central_numerator, square) / polynomial(central_denominator, square));
   }
   return z < 0.0 ? quick_upper_tail(-z) : 1.0 - quick_upper_tail(z);
+}
+
+double coordinate_of_normal(double z) {
+  constexpr double least = 0x1p-53;
+  return std::clamp(quick_normal_probability(z), least, 1.0 - least);
 }
 
 }  // namespace steerstat

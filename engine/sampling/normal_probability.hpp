@@ -15,4 +15,8 @@ double normal_probability(double z);
 /// Sources: the rational approximations of [Cody 1969].
 double quick_normal_probability(double z);
 
+/// The same as a coordinate of a design: no nearer to 0 and 1 than designs draw, 2^-53, though a sum of normal
+/// variables may lie beyond what theirs can be, and a draw of a proposal too (whose weight is that of z all the same).
+double coordinate_of_normal(double z);
+
 }  // namespace steerstat

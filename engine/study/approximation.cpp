@@ -11,12 +11,11 @@ namespace {
 // q2_dot -> -q2_dot, leave (4) and its approximation as they are. The first quadrant and all signs cover the rest.
 constexpr Range first_quadrant{.low = 0.0, .high = std::numbers::pi / 2, .rule = "in (0, pi/2)"};
 constexpr Range not_zero{.excludes_zero = true, .rule = "not 0"};
-constexpr Range positive{.low = 0.0, .rule = "> 0"};
 
-constexpr std::array<InputDefinition, 4> definitions{{{"cycle.q2", "rad", first_quadrant, nullptr},
-                                                      {"cycle.q2_dot", "rad/s", not_zero, nullptr},
-                                                      {"cycle.amplitude", "m", not_zero, nullptr},
-                                                      {"cycle.period", "s", positive, nullptr}}};
+constexpr std::array<InputDefinition, 4> definitions_of_cycle{{{"cycle.q2", "rad", first_quadrant, nullptr},
+                                                               {"cycle.q2_dot", "rad/s", not_zero, nullptr},
+                                                               {"cycle.amplitude", "m", not_zero, nullptr},
+                                                               {"cycle.period", "s", positive, nullptr}}};
 
 Factorial cells_of(const std::array<InputValue, 4>& inputs) {
   std::vector<std::size_t> levels;
@@ -29,7 +28,7 @@ Factorial cells_of(const std::array<InputValue, 4>& inputs) {
 }  // namespace
 
 std::span<const InputDefinition> cycle_definitions() {
-  return definitions;
+  return definitions_of_cycle;
 }
 
 CyclePlan::CyclePlan(const ApproximationStudy& study)
@@ -40,7 +39,7 @@ CyclePlan::CyclePlan(const ApproximationStudy& study)
     if (std::holds_alternative<Sweep>(inputs_[i])) position_[i] = factors++;
     if (!std::holds_alternative<Distribution>(inputs_[i])) continue;
     position_[i] = drawn.size();
-    drawn.emplace_back(definitions[i].name);
+    drawn.emplace_back(definitions_of_cycle[i].name);
   }
   design_ = std::make_shared<MonteCarlo>(study.seed, drawn);
 }

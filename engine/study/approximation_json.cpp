@@ -16,9 +16,10 @@ namespace {
 constexpr Range tolerance_range{
     .low = 1e-14, .high = 1e-6, .includes_low = true, .includes_high = true, .rule = "in [1e-14, 1e-6]"};
 
-class Decoder {
+class ApproximationDecoder {
  public:
-  Decoder(const Json& document, std::vector<SpecError>& errors) : root_(document, "", errors), errors_(errors) {}
+  ApproximationDecoder(const Json& document, std::vector<SpecError>& errors)
+      : root_(document, "", errors), errors_(errors) {}
 
   ApproximationStudy decode() {
     static constexpr std::array<std::string_view, 6> known{"kind", "name", "plant", "cycle", "integrator", "sampling"};
@@ -114,7 +115,7 @@ class Decoder {
 ApproximationStudy decode_approximation(std::string_view text) {
   std::vector<SpecError> errors;
   const Json document = parse_json(text, errors);
-  ApproximationStudy study = Decoder(document, errors).decode();
+  ApproximationStudy study = ApproximationDecoder(document, errors).decode();
   if (errors.empty()) return study;
   sort_by_place(errors, document);
   if (errors.size() > most_errors) errors.resize(most_errors);

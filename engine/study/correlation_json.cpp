@@ -37,9 +37,9 @@ std::string advice_for(std::string_view word) {
   return "name one as \"plant.m1\"";
 }
 
-class Decoder {
+class CorrelationDecoder {
  public:
-  Decoder(std::span<const Input> inputs, std::span<const std::string> mistaken)
+  CorrelationDecoder(std::span<const Input> inputs, std::span<const std::string> mistaken)
       : inputs_(inputs), mistaken_(mistaken) {}
 
   void decode_entry(const Reader& entry, Coefficients& coefficients) const {
@@ -134,7 +134,7 @@ std::vector<Correlation> decode_correlations(const Reader& reader, std::span<con
     return {};
   }
   const std::size_t mistakes = reader.errors().size();
-  const Decoder decoder(inputs, mistaken);
+  const CorrelationDecoder decoder(inputs, mistaken);
   Coefficients coefficients;
   for (std::size_t i = 0; i < size; ++i) decoder.decode_entry(reader.element(i), coefficients);
   if (reader.errors().size() == mistakes) require_positive_definite(reader, coefficients);

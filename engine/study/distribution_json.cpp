@@ -12,10 +12,6 @@ namespace {
 
 using Shape = Distribution::Shape;
 
-constexpr Range any{};
-constexpr Range positive{.low = 0.0, .rule = "> 0"};
-constexpr Range non_negative{.low = 0.0, .includes_low = true, .rule = ">= 0"};
-
 struct Member {
   std::string_view name;
   Range range;
@@ -72,14 +68,14 @@ std::optional<Shape> decode_triangular(const Reader& reader) {
 }
 
 std::optional<Shape> decode_normal(const Reader& reader) {
-  const auto x = members<2>(reader, "{\"mean\", \"std\"}", {{{"mean", any}, {"std", positive}}});
+  const auto x = members<2>(reader, "{\"mean\", \"std\"}", {{{"mean", any_number}, {"std", positive}}});
   if (!x) return std::nullopt;
   return Normal{(*x)[0], (*x)[1]};
 }
 
 std::optional<Shape> decode_truncated_normal(const Reader& reader) {
   const auto x = members<4>(reader, "{\"mean\", \"std\", \"low\", \"high\"}",
-                            {{{"mean", any}, {"std", positive}, {"low", any}, {"high", any}}});
+                            {{{"mean", any_number}, {"std", positive}, {"low", any_number}, {"high", any_number}}});
   if (!x) return std::nullopt;
   const auto [mean, std, low, high] = *x;
   if (!require_ordered(reader, low, high)) return std::nullopt;
@@ -128,7 +124,7 @@ std::optional<Shape> decode_discrete(const Reader& reader) {
   reader.refuse_unknown_keys(names);
   const auto values_reader = reader.require("values");
   const auto weights_reader = reader.require("weights");
-  auto values = values_reader ? list(*values_reader, any, "a value") : std::nullopt;
+  auto values = values_reader ? list(*values_reader, any_number, "a value") : std::nullopt;
   auto weights = weights_reader ? list(*weights_reader, non_negative, "a weight") : std::nullopt;
   if (weights && !require_total(*weights_reader, *weights)) return std::nullopt;
   if (!values || !weights) return std::nullopt;

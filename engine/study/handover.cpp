@@ -8,8 +8,8 @@
 namespace steerstat {
 namespace {
 
-constexpr std::uint64_t enough_trials = std::uint64_t{1} << 16;  // to be handed over before the time has come
-constexpr std::uint64_t most_trials = std::uint64_t{1} << 20;    // at a time
+constexpr std::uint64_t enough_trials = std::uint64_t{1} << 16;   // to be handed over before the time has come
+constexpr std::uint64_t most_delivered = std::uint64_t{1} << 20;  // at a time
 
 }  // namespace
 
@@ -71,7 +71,7 @@ bool HandOver::due() const {
 void HandOver::deliver(const std::stop_token& stop) {
   while (delivered_ < found_ && !stop.stop_requested()) {
     TrialRange range{blocks_[delivered_].begin, blocks_[delivered_].begin};
-    while (delivered_ < found_ && blocks_[delivered_].begin == range.end && range.end - range.begin < most_trials) {
+    while (delivered_ < found_ && blocks_[delivered_].begin == range.end && range.end - range.begin < most_delivered) {
       range.end = blocks_[delivered_++].end;
     }
     sink_.take(range.begin, outcomes_.subspan(range.begin, range.end - range.begin));

@@ -8,9 +8,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-constexpr Range any{};
-constexpr Range positive{.low = 0.0, .rule = "> 0"};
-constexpr Range non_negative{.low = 0.0, .includes_low = true, .rule = ">= 0"};
 constexpr Range non_zero{.excludes_zero = true, .rule = "!= 0"};
 constexpr Range fraction{.low = 0.0, .high = 1.0, .rule = "in (0, 1)"};
 // Rule 6's drift ends at s2 = -(min_authority + 0.1), which has to be above -1.
@@ -35,14 +32,14 @@ constexpr std::array<InputDefinition, input_count> definitions{{
                     [](T& p) -> double& { return p.disturbance.coulomb_speed1; }, imperfection},
     InputDefinition{"plant.coulomb_speed2", "rad/s", positive,
                     [](T& p) -> double& { return p.disturbance.coulomb_speed2; }, imperfection},
-    InputDefinition{"plant.gravity_x", "m/s^2", any, [](T& p) -> double& { return p.disturbance.gravity_x; },
+    InputDefinition{"plant.gravity_x", "m/s^2", any_number, [](T& p) -> double& { return p.disturbance.gravity_x; },
                     imperfection},
-    InputDefinition{"plant.gravity_y", "m/s^2", any, [](T& p) -> double& { return p.disturbance.gravity_y; },
+    InputDefinition{"plant.gravity_y", "m/s^2", any_number, [](T& p) -> double& { return p.disturbance.gravity_y; },
                     imperfection},
-    InputDefinition{"initial_state.q1", "m", any, [](T& p) -> double& { return p.start.q1; }},
-    InputDefinition{"initial_state.q2", "rad", any, [](T& p) -> double& { return p.start.q2; }},
-    InputDefinition{"initial_state.q1_dot", "m/s", any, [](T& p) -> double& { return p.start.q1_dot; }},
-    InputDefinition{"initial_state.q2_dot", "rad/s", any, [](T& p) -> double& { return p.start.q2_dot; }},
+    InputDefinition{"initial_state.q1", "m", any_number, [](T& p) -> double& { return p.start.q1; }},
+    InputDefinition{"initial_state.q2", "rad", any_number, [](T& p) -> double& { return p.start.q2; }},
+    InputDefinition{"initial_state.q1_dot", "m/s", any_number, [](T& p) -> double& { return p.start.q1_dot; }},
+    InputDefinition{"initial_state.q2_dot", "rad/s", any_number, [](T& p) -> double& { return p.start.q2_dot; }},
     InputDefinition{"controller.alignment.kp", "1/s^2", positive,
                     [](T& p) -> double& { return p.controller.alignment.kp; }},
     InputDefinition{"controller.alignment.kd", "1/s", positive,
@@ -98,11 +95,12 @@ constexpr std::array<InputDefinition, input_count> definitions{{
     InputDefinition{"actuator.gain", "1", positive, [](T& p) -> double& { return p.actuator.gain; }, imperfection},
     InputDefinition{"actuator.max_force", "N", positive, [](T& p) -> double& { return p.actuator.max_force; },
                     imperfection},
-    InputDefinition{"sensor.bias.q1", "m", any, [](T& p) -> double& { return p.sensor.bias.q1; }, imperfection},
-    InputDefinition{"sensor.bias.q2", "rad", any, [](T& p) -> double& { return p.sensor.bias.q2; }, imperfection},
-    InputDefinition{"sensor.bias.q1_dot", "m/s", any, [](T& p) -> double& { return p.sensor.bias.q1_dot; },
+    InputDefinition{"sensor.bias.q1", "m", any_number, [](T& p) -> double& { return p.sensor.bias.q1; }, imperfection},
+    InputDefinition{"sensor.bias.q2", "rad", any_number, [](T& p) -> double& { return p.sensor.bias.q2; },
                     imperfection},
-    InputDefinition{"sensor.bias.q2_dot", "rad/s", any, [](T& p) -> double& { return p.sensor.bias.q2_dot; },
+    InputDefinition{"sensor.bias.q1_dot", "m/s", any_number, [](T& p) -> double& { return p.sensor.bias.q1_dot; },
+                    imperfection},
+    InputDefinition{"sensor.bias.q2_dot", "rad/s", any_number, [](T& p) -> double& { return p.sensor.bias.q2_dot; },
                     imperfection},
     InputDefinition{"sensor.noise.q1", "m", non_negative, [](T& p) -> double& { return p.sensor.noise.q1; },
                     imperfection},

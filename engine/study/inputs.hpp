@@ -28,6 +28,10 @@ struct Range {
   [[nodiscard]] bool contains(const Support& support) const;
 };
 
+inline constexpr Range any_number{};
+inline constexpr Range positive{.low = 0.0, .rule = "> 0"};
+inline constexpr Range non_negative{.low = 0.0, .includes_low = true, .rule = ">= 0"};
+
 /// One number of `plant`, `initial_state`, `controller`, `actuator` or `sensor`: the numbers a study can vary.
 struct InputDefinition {
   std::string_view name;  ///< dotted, as in a spec: "plant.m1"

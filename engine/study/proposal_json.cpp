@@ -24,9 +24,9 @@ constexpr Range shift_range{
 constexpr Range scale_range{
     .low = 0.1, .high = 4.0, .includes_low = true, .includes_high = true, .rule = "in [0.1, 4]"};
 
-class Decoder {
+class ProposalDecoder {
  public:
-  Decoder(std::span<const Input> inputs, std::span<const std::string> mistaken)
+  ProposalDecoder(std::span<const Input> inputs, std::span<const std::string> mistaken)
       : inputs_(inputs), mistaken_(mistaken) {}
 
   [[nodiscard]] Proposal::Component component(const Reader& reader) const {
@@ -106,7 +106,7 @@ Proposal decode_proposal(const Reader& reader, std::span<const Input> inputs, st
     return proposal;
   }
   const std::size_t mistakes = reader.errors().size();
-  const Decoder decoder(inputs, mistaken);
+  const ProposalDecoder decoder(inputs, mistaken);
   for (std::size_t i = 0; i < size; ++i) proposal.components.push_back(decoder.component(components->element(i)));
   if (reader.errors().size() != mistakes) proposal.components.clear();
   return proposal;

@@ -24,8 +24,6 @@
 namespace steerstat {
 namespace {
 
-constexpr Range any{};
-constexpr Range positive{.low = 0.0, .rule = "> 0"};
 constexpr Range integrator_tolerance{
     .low = 1e-14, .high = 1e-2, .includes_low = true, .includes_high = true, .rule = "in [1e-14, 0.01]"};
 
@@ -214,10 +212,10 @@ class Decoder {
     double q1 = study_.goal.q1;
     double q2 = study_.goal.q2;
     if (const auto member = reader.find("q1")) {
-      q1 = decode_fixed(*member, any, "goal.q1", "vary initial_state.q1").value_or(q1);
+      q1 = decode_fixed(*member, any_number, "goal.q1", "vary initial_state.q1").value_or(q1);
     }
     if (const auto member = reader.find("q2")) {
-      const auto value = decode_fixed(*member, any, "goal.q2", "vary initial_state.q2");
+      const auto value = decode_fixed(*member, any_number, "goal.q2", "vary initial_state.q2");
       const auto [s, c] = sincos(value.value_or(q2));
       if (std::abs(2.0 * s * c) < least_goal_sine) {
         member->fail(

@@ -11,7 +11,7 @@
 namespace steerstat {
 namespace {
 
-std::uint64_t cells_of(const Study& study) {
+std::uint64_t cell_count(const Study& study) {
   double cells = 1.0;
   for (const Input& input : study.inputs) {
     if (const auto* sweep = std::get_if<Sweep>(&input.value)) cells *= static_cast<double>(sweep->values.size());
@@ -56,7 +56,7 @@ void check_store(const Study& study, const std::vector<std::string>& mistaken, s
                          store));
     }
   }
-  const std::uint64_t cells = cells_of(study);
+  const std::uint64_t cells = cell_count(study);
   if (cells > most_sketched_cells) {
     refuse("/store",
            fmt::format("\"{}\" with {} cells (at most {}, a sketch of each being in memory); store \"all\", or "

@@ -5,18 +5,11 @@
 #include <algorithm>
 #include <string_view>
 
+#include "hardening/lower_case.hpp"
 #include "hardening/token.hpp"
 
 namespace steerstat {
 namespace {
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return result;
-}
 
 /// The name of `name:port` or `[address]:port`; "" where it is neither.
 std::string name_of_authority(std::string_view authority) {
@@ -34,7 +27,7 @@ std::string name_of_authority(std::string_view authority) {
   }
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
   if (!port.empty() && (port.front() != ':' || !std::all_of(port.begin() + 1, port.end(), is_digit))) return "";
-  return lower(name);
+  return lower_case(name);
 }
 
 bool is_address(const std::string& name) {
@@ -53,7 +46,8 @@ std::string without_default_port(std::string authority, std::string_view port) {
 bool is_same_origin(std::string_view origin, std::string_view host) {
   const auto matches = [&](std::string_view scheme, std::string_view port) {
     return origin.substr(0, scheme.size()) == scheme &&
-           without_default_port(lower(origin.substr(scheme.size())), port) == without_default_port(lower(host), port);
+           without_default_port(lower_case(origin.substr(scheme.size())), port) ==
+               without_default_port(lower_case(host), port);
   };
   return matches("http://", ":80") || matches("https://", ":443");
 }

@@ -4,21 +4,13 @@
 #include <array>
 #include <charconv>
 
+#include "hardening/lower_case.hpp"
+
 namespace steerstat {
 namespace {
 
 [[noreturn]] void refuse(int status, std::string detail) {
   throw Refused({status, std::move(detail)});
-}
-
-char lower(char c) {
-  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = lower(c);
-  return result;
 }
 
 bool is_token_character(char c) {
@@ -83,7 +75,7 @@ void parse_fields(std::string_view text, const DoorLimits& limits, RequestHead& 
       refuse(431, "a header field may have " + std::to_string(limits.field_bytes) + " bytes");
     }
     if (head.fields.size() == limits.fields) refuse(431, "there are too many header fields");
-    head.fields.emplace_back(lower(line.substr(0, colon)), value);
+    head.fields.emplace_back(lower_case(line.substr(0, colon)), value);
   }
 }
 
@@ -126,13 +118,13 @@ void check_framing(const DoorLimits& limits, RequestHead& head) {
     refuse(411, "a POST needs a Content-Length");
   }
   if (head.content_length > 0 && head.method != "POST") refuse(400, "a body is taken with POST alone");
-  if (head.has("content-encoding") && lower(head.field("content-encoding")) != "identity") {
+  if (head.has("content-encoding") && lower_case(head.field("content-encoding")) != "identity") {
     Problem problem{415, "bodies are taken uncompressed (no Content-Encoding)"};
     problem.headers.emplace_back("Accept-Encoding", "identity");
     throw Refused(std::move(problem));
   }
   if (head.has("expect")) {
-    if (lower(head.field("expect")) != "100-continue") refuse(417, "of expectations 100-continue alone is met");
+    if (lower_case(head.field("expect")) != "100-continue") refuse(417, "of expectations 100-continue alone is met");
     head.expects_continue = !head.http_1_0;
   }
 }
@@ -141,7 +133,7 @@ void check_framing(const DoorLimits& limits, RequestHead& head) {
 bool lists(std::string_view list, std::string_view word) {
   while (!list.empty()) {
     const std::size_t comma = std::min(list.find(','), list.size());
-    if (lower(trimmed(list.substr(0, comma))) == word) return true;
+    if (lower_case(trimmed(list.substr(0, comma))) == word) return true;
     list.remove_prefix(std::min(comma + 1, list.size()));
   }
   return false;

@@ -1,13 +1,13 @@
 #include "service/study_views.hpp"
 
-#include <algorithm>
 #include <utility>
+
+#include "service/refresh_timer.hpp"
 
 namespace steerstat {
 namespace {
 
 constexpr std::size_t most_views = 24;  // a megabyte or two a piece
-constexpr std::chrono::milliseconds shortest{300};
 
 }  // namespace
 
@@ -16,10 +16,9 @@ StudyViews::Text StudyViews::view(const std::string& id, std::uint64_t revision,
   if (auto found = find(id, revision, is_running)) return found;
   const std::lock_guard making(making_);
   if (auto found = find(id, revision, is_running)) return found;  // made while this one waited
-  const Clock::time_point start = Clock::now();
+  const RefreshTimer timer;
   const Text text = std::make_shared<const std::string>(make());
-  const Clock::time_point end = Clock::now();
-  const Clock::time_point due = end + std::max<Clock::duration>(shortest, 10 * (end - start));
+  const Clock::time_point due = timer.due();
   const std::lock_guard lock(mutex_);
   made_.remove_if([&](const Made& one) { return one.id == id; });
   made_.push_front({id, revision, is_running, due, text});

@@ -18,7 +18,7 @@ class StudyViews {
   using Text = std::shared_ptr<const std::string>;
 
   /// @param revision    of the study: a view made at another one counts for nothing, but while it runs
-  /// @param is_running  then a view holds for a while, ten times as long as it took to make, whatever the revision
+  /// @param is_running  then a view holds for a while (RefreshTimer), whatever the revision
   /// @param make        makes it; one view is made at a time
   /// @throws what `make` throws
   Text view(const std::string& id, std::uint64_t revision, bool is_running, const std::function<std::string()>& make);

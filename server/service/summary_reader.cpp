@@ -1,8 +1,8 @@
-#include <algorithm>
 #include <span>
 
 #include "core/errors.hpp"
 #include "report/summary.hpp"
+#include "service/refresh_timer.hpp"
 #include "service/study_reader.hpp"
 #include "service/study_service.hpp"
 #include "store/seal.hpp"
@@ -39,9 +39,6 @@ std::optional<std::string> StudyReader::kept_summary(const StudyEntry& entry) co
 }
 
 SummaryText StudyReader::summary(const StudyEntry& entry) {
-  constexpr std::chrono::milliseconds shortest{300};  // between two summaries of a running study
-  constexpr int share = 10;                           // and so many times what it took to make one
-
   const StudyState state = catalogue_.state(entry);
   if (state.status == StudyStatus::succeeded) {
     if (auto json = kept_summary(entry)) return {*std::move(json), true, state.revision};
@@ -62,14 +59,13 @@ SummaryText StudyReader::summary(const StudyEntry& entry) {
     computing.lock();
   }
   if (auto found = find()) return *std::move(found);  // made while this one waited
-  const Clock::time_point start = Clock::now();
+  const RefreshTimer timer;
   std::string json = summary_json(summarise(*entry.study, everything(entry)->result));
-  const Clock::time_point end = Clock::now();
   const std::lock_guard lock(cache.mutex);
   cache.json = std::move(json);
   cache.revision = state.revision;
   cache.was_running = state.status == StudyStatus::running;
-  cache.due = end + std::max<Clock::duration>(shortest, share * (end - start));
+  cache.due = timer.due();
   return {cache.json, state.status == StudyStatus::succeeded, cache.revision};
 }
 

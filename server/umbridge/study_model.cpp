@@ -12,12 +12,13 @@
 namespace steerstat {
 namespace {
 
-constexpr std::array<std::string_view, 2> known_keys{"inputs", "study"};
-constexpr std::array<std::string_view, 2> default_names{"controller.contraction.eta1", "controller.contraction.eta2"};
+constexpr std::array<std::string_view, 2> study_keys{"inputs", "study"};
+constexpr std::array<std::string_view, 2> default_controller_inputs{"controller.contraction.eta1",
+                                                                    "controller.contraction.eta2"};
 
 std::vector<std::string> controller_inputs(const Json& config) {
-  require_known_keys(config, known_keys);
-  std::vector<std::string> names = named_inputs(config, default_names);
+  require_known_keys(config, study_keys);
+  std::vector<std::string> names = named_inputs(config, default_controller_inputs);
   const auto foreign = std::find_if(names.begin(), names.end(),
                                     [](const std::string& name) { return !name.starts_with("controller."); });
   if (foreign != names.end()) {

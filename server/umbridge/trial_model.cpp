@@ -13,8 +13,8 @@
 namespace steerstat {
 namespace {
 
-constexpr std::array<std::string_view, 2> known_keys{"inputs", "spec"};
-constexpr std::array<std::string_view, 4> default_names{"plant.m1", "plant.m2", "plant.f1", "plant.f2"};
+constexpr std::array<std::string_view, 2> trial_keys{"inputs", "spec"};
+constexpr std::array<std::string_view, 4> default_plant_inputs{"plant.m1", "plant.m2", "plant.f1", "plant.f2"};
 
 Study study_of(const Json& spec) {
   try {
@@ -48,13 +48,13 @@ double moved(std::string_view name, double value, double x) {
 }  // namespace
 
 std::size_t TrialModel::inputs(const Json& config) const {
-  require_known_keys(config, known_keys);
-  return named_inputs(config, default_names).size();
+  require_known_keys(config, trial_keys);
+  return named_inputs(config, default_plant_inputs).size();
 }
 
 std::vector<double> TrialModel::evaluate(std::span<const double> input, const Json& config) const {
-  require_known_keys(config, known_keys);
-  const std::vector<std::string> names = named_inputs(config, default_names);
+  require_known_keys(config, trial_keys);
+  const std::vector<std::string> names = named_inputs(config, default_plant_inputs);
   Json spec = spec_in(config);
   TrialParameters undisturbed = parameters_of(study_of(spec));
   for (std::size_t i = 0; i < names.size(); ++i) {

@@ -10,12 +10,12 @@
 namespace steerstat {
 namespace {
 
-const std::vector<std::string> names{"plant.m1", "plant.m2", "initial_state.q2"};
+const std::vector<std::string> input_names{"plant.m1", "plant.m2", "initial_state.q2"};
 
 TEST(LatinHypercube, EveryVariableHasOneDrawInEachStratum) {
   for (const std::uint64_t n : {1U, 2U, 3U, 7U, 64U, 1000U, 4097U}) {
-    const LatinHypercube design(n, 5, names);
-    for (std::size_t variable = 0; variable < names.size(); ++variable) {
+    const LatinHypercube design(n, 5, input_names);
+    for (std::size_t variable = 0; variable < input_names.size(); ++variable) {
       std::vector<bool> hit(n);
       for (std::uint64_t draw = 0; draw < n; ++draw) {
         const double u = design.coordinate(draw, variable);
@@ -33,7 +33,7 @@ TEST(LatinHypercube, EveryVariableHasOneDrawInEachStratum) {
 TEST(LatinHypercube, DrawsStayInTheirStratumInTheLargestDesigns) {
   // Where the place in a stratum has the fewest digits; the product with n is not rounded across a bound.
   for (const std::uint64_t n : {1'000'000'000U, 4'294'967'295U}) {
-    const LatinHypercube design(n, 1, names);
+    const LatinHypercube design(n, 1, input_names);
     const Permutation strata(n, 1, "latin_hypercube " + std::to_string(n) + " plant.m1 strata");
     for (std::uint64_t draw = n - 2000; draw < n; ++draw) {
       const long double u = design.coordinate(draw, 0);
@@ -44,7 +44,7 @@ TEST(LatinHypercube, DrawsStayInTheirStratumInTheLargestDesigns) {
 
 TEST(LatinHypercube, PlacesInTheStrataAreUniform) {
   constexpr std::uint64_t n = 20'000;
-  const LatinHypercube design(n, 9, names);
+  const LatinHypercube design(n, 9, input_names);
   std::vector<double> places;
   for (std::uint64_t draw = 0; draw < n; ++draw) {
     const double scaled = design.coordinate(draw, 1) * static_cast<double>(n);
@@ -59,16 +59,16 @@ TEST(LatinHypercube, PlacesInTheStrataAreUniform) {
 }
 
 TEST(LatinHypercube, AVariablesDrawsDoNotDependOnTheOtherVariables) {
-  const std::vector<std::string> last{names[2]};
+  const std::vector<std::string> last{input_names[2]};
   const LatinHypercube alone(50, 5, last);
-  const LatinHypercube among(50, 5, names);
+  const LatinHypercube among(50, 5, input_names);
   for (std::uint64_t draw = 0; draw < 50; ++draw) EXPECT_EQ(alone.coordinate(draw, 0), among.coordinate(draw, 2));
 }
 
 TEST(LatinHypercube, SeedsAndNumbersOfDrawsGiveOtherPoints) {
-  const LatinHypercube one(50, 1, names);
-  const LatinHypercube another_seed(50, 2, names);
-  const LatinHypercube more(51, 1, names);
+  const LatinHypercube one(50, 1, input_names);
+  const LatinHypercube another_seed(50, 2, input_names);
+  const LatinHypercube more(51, 1, input_names);
   std::size_t same_stratum = 0;
   for (std::uint64_t draw = 0; draw < 50; ++draw) {
     EXPECT_NE(one.coordinate(draw, 0), another_seed.coordinate(draw, 0));
@@ -80,7 +80,7 @@ TEST(LatinHypercube, SeedsAndNumbersOfDrawsGiveOtherPoints) {
 }
 
 TEST(LatinHypercube, KeepsTheDrawsItHasAlwaysGiven) {
-  const LatinHypercube design(10, 1, names);
+  const LatinHypercube design(10, 1, input_names);
   EXPECT_EQ(design.coordinate(0, 0), 0x1.e3777b3d2b1e3p-1);
   EXPECT_EQ(design.coordinate(9, 2), 0x1.5e4ca67e15073p-3);
 }
@@ -92,7 +92,7 @@ TEST(LatinHypercube, IntegratesSumsFarBetterThanIndependentDraws) {
   constexpr std::uint64_t seeds = 50;
   double square = 0.0;
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-    const LatinHypercube design(n, seed, names);
+    const LatinHypercube design(n, seed, input_names);
     double sum = 0.0;
     for (std::uint64_t draw = 0; draw < n; ++draw) {
       for (std::size_t variable = 0; variable < 3; ++variable) sum += design.coordinate(draw, variable) - 0.5;

@@ -12,23 +12,23 @@
 namespace steerstat {
 namespace {
 
-const std::vector<std::string> names{"a", "b"};
+const std::vector<std::string> two_names{"a", "b"};
 
 TEST(MetropolisCandidates, AreAPureFunctionOfIndexAndState) {
-  const MetropolisCandidates candidates(3, names);
+  const MetropolisCandidates candidates(3, two_names);
   const std::vector<double> state{0.2, 0.9};
   std::vector<double> first(2);
   std::vector<double> other(2);
   std::vector<double> again(2);
   candidates.place(5, state, first);
   candidates.place(6, state, other);
-  MetropolisCandidates(3, names).place(5, state, again);
+  MetropolisCandidates(3, two_names).place(5, state, again);
   EXPECT_EQ(first, again);
   EXPECT_NE(first, other);
 }
 
 TEST(MetropolisCandidates, MoveByOneStandardDeviationAtMostOrKeepTheirBits) {
-  const MetropolisCandidates candidates(3, names);
+  const MetropolisCandidates candidates(3, two_names);
   const std::vector<double> state{0.001, 0.97};
   std::vector<double> candidate(2);
   int moved = 0;
@@ -46,7 +46,7 @@ TEST(MetropolisCandidates, MoveByOneStandardDeviationAtMostOrKeepTheirBits) {
 }
 
 TEST(MetropolisCandidates, StayInsideTheUnitCubeAtItsCorners) {
-  const MetropolisCandidates candidates(3, names);
+  const MetropolisCandidates candidates(3, two_names);
   std::vector<double> state{0x1p-53, 1.0 - 0x1p-53};
   for (std::uint64_t i = 0; i < 2000; ++i) {
     candidates.place(i, state, state);
@@ -59,8 +59,8 @@ TEST(MetropolisCandidates, StayInsideTheUnitCubeAtItsCorners) {
 
 // Of states that are uniform, so are the candidates: the chains' distribution is that of the draws.
 TEST(MetropolisCandidates, KeepTheDistribution) {
-  const MonteCarlo draws(9, names);
-  const MetropolisCandidates candidates(10, names);
+  const MonteCarlo draws(9, two_names);
+  const MetropolisCandidates candidates(10, two_names);
   constexpr std::uint64_t n = 40'000;
   std::vector<std::vector<double>> shares(2, std::vector<double>(10));
   std::vector<double> state(2);

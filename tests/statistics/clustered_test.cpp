@@ -67,17 +67,17 @@ TEST(ClusteredProportion, OfConfidenceSequencesCountsClusters) {
   EXPECT_EQ(wider.high, confidence_sequence(21, 50, level).high);
 }
 
-/// Draws of which each has a chance of its own, shared by its trials in every cell.
-struct Draws {
+/// ClusteredDraws of which each has a chance of its own, shared by its trials in every cell.
+struct ClusteredDraws {
   std::vector<ClusterSum> successes;
   std::vector<ClusterSum> values;
   std::vector<std::vector<double>> by_draw;
   std::uint64_t converged{0};
 };
 
-Draws drawn(std::mt19937_64& generator, std::size_t draws, std::size_t cells) {
+ClusteredDraws clustered_draws(std::mt19937_64& generator, std::size_t draws, std::size_t cells) {
   const auto uniform = [&] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
-  Draws result;
+  ClusteredDraws result;
   for (std::size_t i = 0; i < draws; ++i) {
     const double ease = uniform();
     ClusterSum successes{cells, 0.0};
@@ -99,7 +99,7 @@ Draws drawn(std::mt19937_64& generator, std::size_t draws, std::size_t cells) {
   return result;
 }
 
-std::vector<ClusterSum> at_or_below(const Draws& draws, double x) {
+std::vector<ClusterSum> at_or_below(const ClusteredDraws& draws, double x) {
   std::vector<ClusterSum> clusters;
   for (const std::vector<double>& values : draws.by_draw) {
     const auto below = std::count_if(values.begin(), values.end(), [&](double value) { return value <= x; });
@@ -112,7 +112,7 @@ std::vector<ClusterSum> at_or_below(const Draws& draws, double x) {
 TEST(ClusteredIntervals, CoverWhatTheyClaimWhereIntervalsOfIndependentTrialsDoNot) {
   constexpr std::size_t cells = 6;
   std::mt19937_64 generator(5);
-  const Draws population = drawn(generator, 400'000, cells);
+  const ClusteredDraws population = clustered_draws(generator, 400'000, cells);
   std::vector<double> all;
   for (const auto& values : population.by_draw) all.insert(all.end(), values.begin(), values.end());
   std::sort(all.begin(), all.end());
@@ -124,7 +124,7 @@ TEST(ClusteredIntervals, CoverWhatTheyClaimWhereIntervalsOfIndependentTrialsDoNo
   int rates = 0, naive_rates = 0, means = 0, naive_means = 0, quantiles = 0, naive_quantiles = 0, sequences = 0,
       rank_sequences = 0;
   for (int i = 0; i < studies; ++i) {
-    const Draws draws = drawn(generator, 80, cells);
+    const ClusteredDraws draws = clustered_draws(generator, 80, cells);
     const auto covers = [](const auto& interval, double truth) {
       return interval.low <= truth && truth <= interval.high ? 1 : 0;
     };

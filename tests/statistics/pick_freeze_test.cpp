@@ -29,7 +29,7 @@ std::vector<double> design_of(const KnownSensitivities& known, std::size_t rows,
   return outputs;
 }
 
-void expect_within_standard_errors(const KnownSensitivities& known, std::size_t rows) {
+void expect_indices_within_standard_errors(const KnownSensitivities& known, std::size_t rows) {
   const auto indices = pick_freeze_indices(design_of(known, rows, 3), known.inputs(), {0.9999, 5});
   ASSERT_TRUE(indices);
   ASSERT_EQ(indices->size(), known.inputs());
@@ -46,15 +46,15 @@ void expect_within_standard_errors(const KnownSensitivities& known, std::size_t 
 }
 
 TEST(PickFreeze, MeetsTheClosedFormsOfTheIshigamiFunction) {
-  expect_within_standard_errors(ishigami(), 2000);
+  expect_indices_within_standard_errors(ishigami(), 2000);
 }
 
 TEST(PickFreeze, MeetsTheClosedFormsOfTheGFunction) {
-  expect_within_standard_errors(g_function(), 2000);
+  expect_indices_within_standard_errors(g_function(), 2000);
 }
 
 TEST(PickFreeze, MeetsTheClosedFormsOfASuccessBehindTwoCliffs) {
-  expect_within_standard_errors(cliffs(), 2000);
+  expect_indices_within_standard_errors(cliffs(), 2000);
 }
 
 TEST(PickFreeze, GroupsOfNeighboursGiveTheSameStandardErrorsAsRows) {

@@ -93,7 +93,7 @@ TEST(WeightedFailures, RefuseNoDraws) {
 
 // The linear limit state in standard normals: failure is z > beta, with probability Phi(-beta) whatever the dimension,
 // as the proposal moves the one direction that counts.
-struct Repeats {
+struct WeightedRepeats {
   double mean{0.0};       // of the estimates, over the truth
   double spread{0.0};     // their standard deviation, over the truth
   double predicted{0.0};  // the mean of their standard errors, over the truth
@@ -101,9 +101,9 @@ struct Repeats {
   int trusted{0};
 };
 
-Repeats repeat(double beta, double shift, double nominal, int repeats, int draws) {
+WeightedRepeats repeat(double beta, double shift, double nominal, int repeats, int draws) {
   const double truth = 0.5 * std::erfc(beta / std::sqrt(2.0));
-  Repeats result;
+  WeightedRepeats result;
   double squares = 0.0;
   std::mt19937_64 engine(71);
   std::normal_distribution<double> normal;
@@ -133,7 +133,7 @@ class WeightedLimitState : public ::testing::TestWithParam<double> {};
 TEST_P(WeightedLimitState, IsEstimatedWithoutBiasWithTheErrorItTellsAndCoveredByItsInterval) {
   const double beta = GetParam();  // 3.719 and 4.753: 1e-4 and 1e-6
   constexpr int repeats = 600;
-  const Repeats found = repeat(beta, beta, 0.2, repeats, 1000);
+  const WeightedRepeats found = repeat(beta, beta, 0.2, repeats, 1000);
   EXPECT_NEAR(found.mean, 1.0, 4.0 * found.spread / std::sqrt(repeats));
   // A standard deviation is known to one in sqrt(2 n); the estimates are nearly normal.
   EXPECT_NEAR(found.predicted / found.spread, 1.0, 4.0 / std::sqrt(2.0 * repeats));
@@ -146,7 +146,7 @@ INSTANTIATE_TEST_SUITE_P(Beta, WeightedLimitState, ::testing::Values(3.719016485
 TEST(WeightedFailures, CoverAtSmallSamplesToo) {
   constexpr int repeats = 600;
   for (const int draws : {60, 200}) {
-    const Repeats found = repeat(3.0, 2.5, 0.3, repeats, draws);
+    const WeightedRepeats found = repeat(3.0, 2.5, 0.3, repeats, draws);
     EXPECT_GE(found.covered, 0.95 * repeats - 3.0 * std::sqrt(0.95 * 0.05 * repeats)) << draws;
   }
 }
@@ -154,7 +154,7 @@ TEST(WeightedFailures, CoverAtSmallSamplesToo) {
 // What the flag is for: a proposal that looks the other way. The estimate would be far off, and the interval is not.
 TEST(WeightedFailures, AreNeitherTrustedNorWrongWhereTheProposalLooksElsewhere) {
   constexpr int repeats = 200;
-  const Repeats found = repeat(2.5, -2.5, 0.5, repeats, 2000);
+  const WeightedRepeats found = repeat(2.5, -2.5, 0.5, repeats, 2000);
   EXPECT_LT(found.trusted, repeats / 20);
   EXPECT_GE(found.covered, 0.95 * repeats - 3.0 * std::sqrt(0.95 * 0.05 * repeats));
 }

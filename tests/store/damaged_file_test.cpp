@@ -16,8 +16,8 @@ namespace steerstat {
 namespace {
 
 using namespace testing_store;
-using testing::AllOf;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 class DamagedFile : public testing::Test {
  protected:

@@ -20,8 +20,8 @@ namespace steerstat {
 namespace {
 
 using namespace testing_store;
-using testing::HasSubstr;
-using testing::MatchesRegex;
+using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
 
 /// Expects the two results to hold the same trials, bit for bit.
 void expect_same_trials(const StudyResult& a, const StudyResult& b) {

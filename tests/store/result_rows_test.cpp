@@ -16,7 +16,7 @@ namespace steerstat {
 namespace {
 
 using namespace testing_store;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 class Rows : public testing::Test {
  protected:

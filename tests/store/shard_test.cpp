@@ -12,7 +12,7 @@ namespace steerstat {
 namespace {
 
 using namespace testing_store;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 class ShardFile : public testing::Test {
  protected:

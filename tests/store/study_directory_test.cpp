@@ -17,10 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace testing_store;
-using testing::AllOf;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 class StudyDirectoryTest : public testing::Test {
  protected:

@@ -16,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace testing_store;
-using testing::AllOf;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 std::span<const std::byte> bytes(const std::string& text) {
   return std::as_bytes(std::span(text));

@@ -23,7 +23,7 @@ std::string spec_with(const std::string& gates, int trials = 100) {
 
 const char* const passing = R"({"metric": "success_rate", "expr": "ci_low >= 0.9"})";
 const char* const failing = R"({"metric": "settling_time", "expr": "p95 < 1"})";
-const char* const open = R"({"metric": "success_rate", "expr": "ci_low >= 0.999"})";
+const char* const undecided = R"({"metric": "success_rate", "expr": "ci_low >= 0.999"})";
 
 TEST(GatesCommand, TheWorstVerdictIsTheExitCode) {
   const Scratch scratch;
@@ -33,14 +33,15 @@ TEST(GatesCommand, TheWorstVerdictIsTheExitCode) {
   const auto list = [](const char* a, const char* b) { return std::string(a) + ", " + b; };
   EXPECT_EQ(exit_code(""), 0);
   EXPECT_EQ(exit_code(passing), 0);
-  EXPECT_EQ(exit_code(list(passing, open)), 3);
-  EXPECT_EQ(exit_code(list(open, failing)), 1);
+  EXPECT_EQ(exit_code(list(passing, undecided)), 3);
+  EXPECT_EQ(exit_code(list(undecided, failing)), 1);
   EXPECT_EQ(exit_code(list(passing, failing)), 1);
 }
 
 TEST(GatesCommand, WritesEverythingWhateverTheVerdict) {
   const Scratch scratch;
-  const std::string spec = scratch.file("spec.json", spec_with(std::string(passing) + ", " + failing + ", " + open));
+  const std::string spec =
+      scratch.file("spec.json", spec_with(std::string(passing) + ", " + failing + ", " + undecided));
   const Ending run = steerstat({"run", spec, "-o", scratch / "a.h5", "--summary", scratch / "a.json", "--junit",
                                 scratch / "a.xml", "--markdown", scratch / "a.md"});
   EXPECT_EQ(run.exit_code, 1) << run.err;

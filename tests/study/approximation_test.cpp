@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_of(const fs::path& path) {
+std::string approximation_text(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   EXPECT_TRUE(file) << path;
   std::ostringstream text;
@@ -24,7 +24,7 @@ std::string text_of(const fs::path& path) {
   return text.str();
 }
 
-std::vector<fs::path> specs_in(const std::string& folder) {
+std::vector<fs::path> approximation_specs(const std::string& folder) {
   std::vector<fs::path> paths;
   for (const auto& entry : fs::directory_iterator(STEERSTAT_SOURCE_DIR "/tests/study/approximation_corpus/" + folder)) {
     if (entry.path().extension() == ".json") paths.push_back(entry.path());
@@ -44,14 +44,14 @@ std::string mistakes_in(const std::string& text) {
 }
 
 TEST(DecodeApproximation, TakesTheGoodSpecs) {
-  for (const fs::path& path : specs_in("good")) EXPECT_EQ(mistakes_in(text_of(path)), "") << path;
+  for (const fs::path& path : approximation_specs("good")) EXPECT_EQ(mistakes_in(approximation_text(path)), "") << path;
 }
 
 TEST(DecodeApproximation, RefusesTheBadSpecsWithExactlyTheseErrors) {
-  for (fs::path path : specs_in("bad")) {
-    const std::string mistakes = mistakes_in(text_of(path));
+  for (fs::path path : approximation_specs("bad")) {
+    const std::string mistakes = mistakes_in(approximation_text(path));
     EXPECT_NE(mistakes, "") << path;
-    EXPECT_EQ(mistakes, text_of(path.replace_extension(".errors"))) << path;
+    EXPECT_EQ(mistakes, approximation_text(path.replace_extension(".errors"))) << path;
   }
 }
 
@@ -73,7 +73,7 @@ TEST(DecodeAnyStudy, TellsTheKindsApart) {
   EXPECT_THROW(decode_any_study("[]", {}), BadSpec);
 }
 
-ApproximationStudy swept(std::uint64_t draws) {
+ApproximationStudy swept_cycles(std::uint64_t draws) {
   ApproximationStudy study = decode_approximation(
       R"({"kind": "approximation", "cycle": {"amplitude": {"sweep": [25, 50]}, "period": {"sweep": [1, 2, 4]}}})");
   study.draws = draws;
@@ -81,7 +81,7 @@ ApproximationStudy swept(std::uint64_t draws) {
 }
 
 TEST(CyclePlan, CellsAreTheFactorialOfTheSweepsAndShareTheirDraws) {
-  const CyclePlan plan(swept(10));
+  const CyclePlan plan(swept_cycles(10));
   ASSERT_EQ(plan.cells(), 6U);
   EXPECT_EQ(plan.cycle(3, 4).amplitude, 50.0);
   EXPECT_EQ(plan.cycle(3, 4).period, 2.0);
@@ -92,8 +92,8 @@ TEST(CyclePlan, CellsAreTheFactorialOfTheSweepsAndShareTheirDraws) {
 }
 
 TEST(RunApproximation, MoreDrawsBeginWithTheFewer) {
-  const std::vector<CycleError> few = run_approximation(swept(5));
-  const std::vector<CycleError> many = run_approximation(swept(8));
+  const std::vector<CycleError> few = run_approximation(swept_cycles(5));
+  const std::vector<CycleError> many = run_approximation(swept_cycles(8));
   ASSERT_EQ(few.size(), 30U);
   for (std::size_t cell = 0; cell < 6; ++cell) {
     for (std::size_t draw = 0; draw < 5; ++draw) EXPECT_EQ(few[cell * 5 + draw], many[cell * 8 + draw]);

@@ -21,11 +21,11 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-Study study_of(const std::string& spec) {
+Study planned_study(const std::string& spec) {
   return decode_study(spec, {});
 }
 Plan plan_of(const std::string& spec) {
-  return Plan(study_of(spec));
+  return Plan(planned_study(spec));
 }
 
 std::vector<double> values_of(const Plan& plan, std::uint64_t index) {
@@ -227,7 +227,7 @@ TEST(Plan, ParametersAreThoseOfTheDrawnValues) {
 TEST(Plan, EveryInputReachesItsOwnField) {
   for (const InputDefinition& definition : input_definitions()) {
     const double value = definition.default_value() * 0.75 + 0.125;
-    Study study = study_of("{}");
+    Study study = planned_study("{}");
     for (Input& input : study.inputs) {
       if (input.name == definition.name) input.value = Sweep{{value}};
     }
@@ -307,31 +307,31 @@ TEST(Plan, NoiseIsFrozenWhereSobolIndicesFreezeIt) {
 }
 
 TEST(Plan, RefusesAStudyThatNoSpecGives) {
-  Study unknown = study_of("{}");
+  Study unknown = planned_study("{}");
   unknown.inputs.push_back({"plant.m3", 1.0});
   EXPECT_THROW(Plan{unknown}, std::invalid_argument);
 
-  Study ragged = study_of(R"({"sampling": {"method": "explicit", "trials": [{"plant.m1": 1}]}})");
+  Study ragged = planned_study(R"({"sampling": {"method": "explicit", "trials": [{"plant.m1": 1}]}})");
   ragged.sampling.explicit_values.push_back(2.0);
   EXPECT_THROW(Plan{ragged}, std::invalid_argument);
 
-  Study swept = study_of(R"({"plant": {"m1": {"uniform": [0.8, 1.2]}}, "sampling": {"method": "sobol_indices"}})");
+  Study swept = planned_study(R"({"plant": {"m1": {"uniform": [0.8, 1.2]}}, "sampling": {"method": "sobol_indices"}})");
   swept.inputs.back().value = Sweep{{1.0, 2.0}};
   EXPECT_THROW(Plan{swept}, std::invalid_argument);
 
-  Study nothing = study_of("{}");
+  Study nothing = planned_study("{}");
   nothing.sampling.method = SamplingMethod::sobol_indices;
   EXPECT_THROW(Plan{nothing}, std::invalid_argument);
 
-  Study twice = study_of(R"({"sampling": {"method": "explicit", "trials": [{"plant.m1": 1}]}})");
+  Study twice = planned_study(R"({"sampling": {"method": "explicit", "trials": [{"plant.m1": 1}]}})");
   twice.inputs.front().value = Sweep{{1.0, 2.0}};
   EXPECT_THROW(Plan{twice}, std::invalid_argument);
 
-  Study fixed = study_of(R"({"plant": {"m1": {"uniform": [0.8, 1.2]}}})");
+  Study fixed = planned_study(R"({"plant": {"m1": {"uniform": [0.8, 1.2]}}})");
   fixed.sampling.correlations.push_back({"plant.m1", "plant.m2", 0.5});
   EXPECT_THROW(Plan{fixed}, std::invalid_argument);
 
-  Study contradictory = study_of(R"({"plant": {"m1": {"uniform": [0.8, 1.2]}, "m2": {"uniform": [0.8, 1.2]}}})");
+  Study contradictory = planned_study(R"({"plant": {"m1": {"uniform": [0.8, 1.2]}, "m2": {"uniform": [0.8, 1.2]}}})");
   contradictory.sampling.correlations.push_back({"plant.m1", "plant.m2", 1.0});
   EXPECT_THROW(Plan{contradictory}, std::invalid_argument);
 }

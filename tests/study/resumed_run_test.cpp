@@ -18,7 +18,7 @@
 namespace steerstat {
 namespace {
 
-Study study_of(std::uint64_t trials, const std::string& method = "lockstep", const std::string& more = "") {
+Study resumable(std::uint64_t trials, const std::string& method = "lockstep", const std::string& more = "") {
   return decode_study(R"({"plant": {"m1": {"uniform": [0.8, 1.2]}, "f2": {"uniform": [0, 0.05]}}, "horizon": 20,
       "retain": {"trajectories": {"first": 1, "failed": 2}}, "audit": {"trials": 2}, "integrator": {"method": ")" +
                           method + R"("}, "sampling": {"trials": )" + std::to_string(trials) + "}" + more + "}",
@@ -77,7 +77,7 @@ class ResumedRun : public testing::TestWithParam<const char*> {};
 TEST_P(ResumedRun, IsTheSameAsAnUninterruptedOneWhateverWasFinishedEarlier) {
   const bool lockstep = std::string(GetParam()) == "lockstep";
   const std::uint64_t trials = lockstep ? 700 : 50;
-  const Study study = study_of(trials, GetParam());
+  const Study study = resumable(trials, GetParam());
   RunOptions options;
   options.threads = 2;
   const StudyResult whole = run_study(study, options);
@@ -134,7 +134,7 @@ class CountingRunner final : public TrialRunner {
 };
 
 TEST(ResumedRunOf, AnEarlierRunsTrialsRunsNoneOfThemAgain) {
-  const Study study = study_of(700);
+  const Study study = resumable(700);
   const StudyResult whole = run_study(study, {});
   std::vector<int> counts(700);
   RunOptions options;
@@ -150,8 +150,8 @@ TEST(ResumedRunOf, AnEarlierRunsTrialsRunsNoneOfThemAgain) {
 TEST(ResumedRunOf, AShorterStudyExtendsIt) {
   const char* const swept = R"(, "controller": {"contraction": {"eta1": {"sweep": [0.3, 0.5, 0.7]}}})";
   for (const std::string more : {"", swept}) {
-    const Study shorter = study_of(70, "lockstep", more);
-    const Study longer = study_of(300, "lockstep", more);
+    const Study shorter = resumable(70, "lockstep", more);
+    const Study longer = resumable(300, "lockstep", more);
     ASSERT_TRUE(continues(longer, shorter));
     StudyResult earlier = run_study(shorter, {});
     const StudyResult extended = run_study(longer, {}, {std::move(earlier.trials), earlier.wall_s});
@@ -160,7 +160,7 @@ TEST(ResumedRunOf, AShorterStudyExtendsIt) {
 }
 
 TEST(ResumedRunOf, AStudyThatStopsOnPrecisionStopsAtTheSameTrialWhateverWasFinishedEarlier) {
-  Study study = study_of(3000, "lockstep", R"(, "stop": {"min_trials": 300, "check_every": 100,
+  Study study = resumable(3000, "lockstep", R"(, "stop": {"min_trials": 300, "check_every": 100,
       "until": [{"metric": "timeout_rate", "half_width": 0.06}]})");
   study.horizon = 60.0;
   const StudyResult whole = run_study(study, {});
@@ -179,12 +179,12 @@ TEST(ResumedRunOf, AStudyThatStopsOnPrecisionStopsAtTheSameTrialWhateverWasFinis
 }
 
 TEST(ResumedRunOf, MoreThanTheStudyHasIsRefused) {
-  StudyResult longer = run_study(study_of(300), {});
-  EXPECT_THROW(run_study(study_of(200), {}, {std::move(longer.trials), 0.0}), std::invalid_argument);
+  StudyResult longer = run_study(resumable(300), {});
+  EXPECT_THROW(run_study(resumable(200), {}, {std::move(longer.trials), 0.0}), std::invalid_argument);
 }
 
 TEST(ResumedRunOf, AStoppedOneKeepsWhatWasKnownBeyondAGap) {
-  const Study study = study_of(1000);
+  const Study study = resumable(1000);
   const StudyResult whole = run_study(study, {});
   std::stop_source stop;
   stop.request_stop();
@@ -202,7 +202,7 @@ TEST(ResumedRunOf, AStoppedOneKeepsWhatWasKnownBeyondAGap) {
 }
 
 TEST(ResumedRunOf, AnEarlierRunsTrialsTakesTheirTimeAndCountsThemAsProgress) {
-  const Study study = study_of(300);
+  const Study study = resumable(300);
   const StudyResult whole = run_study(study, {});
   FinishedTrials earlier = part_of(whole, [](std::uint64_t index) { return index < 200; });
   earlier.wall_s = 1000.0;
@@ -219,7 +219,7 @@ TEST(ResumedRunOf, AnEarlierRunsTrialsTakesTheirTimeAndCountsThemAsProgress) {
 
 TEST(Sink, TakesEveryTrialThatRanOnceInOrder) {
   for (const unsigned threads : {1U, 3U}) {
-    const Study study = study_of(3000);
+    const Study study = resumable(3000);
     NotingSink sink;
     RunOptions options;
     options.threads = threads;
@@ -277,7 +277,7 @@ class WatchedRunner final : public TrialRunner {
 };
 
 TEST(Sink, TakesTrialsWhileTheRunGoesOnButNotEachBlockByItself) {
-  Study study = study_of(320, "cvode", R"(, "name": "slow")");
+  Study study = resumable(320, "cvode", R"(, "name": "slow")");
   study.audited_trials = 0;
   study.retention = {};
   std::atomic<bool> seen{false};
@@ -297,7 +297,7 @@ struct Broken : std::runtime_error {
 };
 
 TEST(Sink, WhatItThrowsEndsTheRun) {
-  Study study = study_of(1000000, "cvode");
+  Study study = resumable(1000000, "cvode");
   study.audited_trials = 0;
   std::atomic<int> taken{0};
   NotingSink sink([&] {
@@ -317,11 +317,11 @@ TEST(Sink, WhatItThrowsAtTheEndIsNotLost) {
   NotingSink sink([] { throw Broken("no room"); });
   RunOptions options;
   options.sink = &sink;
-  EXPECT_THROW(run_study(study_of(200), options), Broken);
+  EXPECT_THROW(run_study(resumable(200), options), Broken);
 }
 
 TEST(Sink, GetsWhatAStoppedRunHadFinished) {
-  const Study study = study_of(1000000, "cvode", R"(, "name": "stopped")");
+  const Study study = resumable(1000000, "cvode", R"(, "name": "stopped")");
   std::stop_source stop;
   NotingSink sink([&] { stop.request_stop(); });
   RunOptions options;
@@ -340,28 +340,28 @@ TEST(Sink, GetsWhatAStoppedRunHadFinished) {
 }
 
 TEST(Continuation, IsTheSameStudyWithAsManyDrawsOrMore) {
-  const Study study = study_of(100);
+  const Study study = resumable(100);
   EXPECT_TRUE(continues(study, study));
-  EXPECT_TRUE(continues(study_of(101), study));
-  EXPECT_FALSE(continues(study_of(99), study));
-  EXPECT_EQ(trials_sha256(study_of(101)), trials_sha256(study));
-  EXPECT_NE(spec_sha256(study_of(101)), spec_sha256(study));
+  EXPECT_TRUE(continues(resumable(101), study));
+  EXPECT_FALSE(continues(resumable(99), study));
+  EXPECT_EQ(trials_sha256(resumable(101)), trials_sha256(study));
+  EXPECT_NE(spec_sha256(resumable(101)), spec_sha256(study));
 }
 
 TEST(Continuation, IsNoStudyThatDiffersInAnythingElse) {
-  const Study study = study_of(100);
+  const Study study = resumable(100);
   Study other = study;
   other.sampling.seed = 2;
   EXPECT_FALSE(continues(other, study));
   EXPECT_NE(trials_sha256(other), trials_sha256(study));
-  EXPECT_FALSE(continues(study_of(100, "cvode"), study));
-  EXPECT_FALSE(continues(study_of(200, "lockstep", R"(, "name": "other")"), study));
+  EXPECT_FALSE(continues(resumable(100, "cvode"), study));
+  EXPECT_FALSE(continues(resumable(200, "lockstep", R"(, "name": "other")"), study));
 }
 
 TEST(Continuation, DependsOnWhetherMoreDrawsKeepTheFirstOnes) {
   for (const SamplingMethod method :
        {SamplingMethod::monte_carlo, SamplingMethod::sobol, SamplingMethod::sobol_indices}) {
-    Study study = study_of(100);
+    Study study = resumable(100);
     study.sampling.method = method;
     Study longer = study;
     longer.sampling.trials = 200;
@@ -376,7 +376,7 @@ TEST(Continuation, DependsOnWhetherMoreDrawsKeepTheFirstOnes) {
       EXPECT_EQ(drawn, drawn_longer);
     }
   }
-  Study hypercube = study_of(100);
+  Study hypercube = resumable(100);
   hypercube.sampling.method = SamplingMethod::latin_hypercube;
   Study longer = hypercube;
   longer.sampling.trials = 200;

@@ -11,7 +11,7 @@
 namespace steerstat {
 namespace {
 
-Study study_of(std::uint64_t trials, const std::string& more = "") {
+Study shared_study(std::uint64_t trials, const std::string& more = "") {
   return decode_study(R"({"plant": {"m1": {"uniform": [0.8, 1.2]}, "f2": {"uniform": [0, 0.05]}}, "horizon": 5,
       "retain": {"trajectories": {"first": 1}}, "sampling": {"trials": )" +
                           std::to_string(trials) + "}" + more + "}",
@@ -55,7 +55,7 @@ TEST(StudyShare, TheLargestNumbersDoNotOverflow) {
 }
 
 TEST(RunRange, GivesTheTrialsOfTheWholeStudyBitByBit) {
-  const Study study = study_of(1000);
+  const Study study = shared_study(1000);
   RunOptions options;
   options.threads = 2;
   const StudyResult whole = run_study(study, options);
@@ -81,12 +81,12 @@ TEST(RunRange, HandsOverEachOfItsTrialsOnceByTheStudysIndices) {
   } sink;
   RunOptions options;
   options.sink = &sink;
-  run_range(study_of(1000), {128, 900}, options);
+  run_range(shared_study(1000), {128, 900}, options);
   EXPECT_EQ(sink.next, 900U);
 }
 
 TEST(RunRange, TakesOfEarlierTrialsThoseOfTheRange) {
-  const Study study = study_of(1000);
+  const Study study = shared_study(1000);
   const StudyResult whole = run_range(study, {0, 1000}, {});
   FinishedTrials earlier;
   for (const std::uint64_t index : {5U, 300U, 301U, 999U}) {
@@ -106,14 +106,14 @@ TEST(RunRange, TakesOfEarlierTrialsThoseOfTheRange) {
 }
 
 TEST(RunRange, HeedsNoStopRule) {
-  const Study study = study_of(
+  const Study study = shared_study(
       2000,
       R"(, "stop": {"min_trials": 10, "check_every": 10, "until": [{"metric": "success_rate", "half_width": 0.4}]})");
   EXPECT_EQ(run_range(study, {128, 1500}, {}).trials.index.size(), 1372U);
 }
 
 TEST(RunRange, RefusesWhatIsNoRangeOfBlocks) {
-  const Study study = study_of(1000);
+  const Study study = shared_study(1000);
   EXPECT_THROW(run_range(study, {1, 1000}, {}), std::invalid_argument);
   EXPECT_THROW(run_range(study, {0, 1001}, {}), std::invalid_argument);
   EXPECT_THROW(run_range(study, {256, 128}, {}), std::invalid_argument);

@@ -17,7 +17,7 @@
 namespace steerstat {
 namespace {
 
-Study study_of(const std::string& store, std::uint64_t trials, const std::string& more = "") {
+Study stored_study(const std::string& store, std::uint64_t trials, const std::string& more = "") {
   return decode_study(R"({"plant": {"m1": {"uniform": [0.8, 1.2]}, "f2": {"uniform": [0, 0.05]}}, "horizon": 30,
       "audit": {"trials": 2}, "retain": {"trajectories": {"first": 1, "failed": 2}}, "store": ")" +
                           store + R"(", "sampling": {"trials": )" + std::to_string(trials) + "}" + more + "}",
@@ -34,7 +34,7 @@ FinishedTrials finished(StudyResult result) {
   return {std::move(result.trials), result.wall_s, std::move(result.sketch)};
 }
 
-void expect_same(const StudyResult& a, const StudyResult& b) {
+void expect_same_results(const StudyResult& a, const StudyResult& b) {
   EXPECT_EQ(a.complete, b.complete);
   EXPECT_TRUE(a.sketch == b.sketch);
   EXPECT_EQ(a.trials.index, b.trials.index);
@@ -47,8 +47,8 @@ constexpr const char* sweep = R"(, "controller": {"contraction": {"eta1": {"swee
 
 TEST(SketchedRun, CountsAndSumsWhatAllRowsSay) {
   for (const char* more : {"", sweep}) {
-    const StudyResult rows = run(study_of("all", 700, more));
-    const StudyResult result = run(study_of("summary", 700, more));
+    const StudyResult rows = run(stored_study("all", 700, more));
+    const StudyResult result = run(stored_study("summary", 700, more));
     EXPECT_TRUE(result.complete);
     ASSERT_EQ(result.finished(), rows.trials.index.size());
     const std::size_t cells = result.sketch->cells().size();
@@ -66,9 +66,9 @@ TEST(SketchedRun, CountsAndSumsWhatAllRowsSay) {
 }
 
 TEST(SketchedRun, KeepsTheRowsThatItsStoreSaysToTheBit) {
-  const StudyResult rows = run(study_of("all", 700));
-  const StudyResult none = run(study_of("summary", 700));
-  const StudyResult failed = run(study_of("failed", 700));
+  const StudyResult rows = run(stored_study("all", 700));
+  const StudyResult none = run(stored_study("summary", 700));
+  const StudyResult failed = run(stored_study("failed", 700));
   for (const StudyResult* result : {&none, &failed}) {
     for (std::size_t row = 0; row < result->trials.index.size(); ++row) {
       EXPECT_TRUE(same_bits(result->trials.outcomes[row], rows.trials.outcomes[result->trials.index[row]]));
@@ -88,23 +88,23 @@ TEST(SketchedRun, KeepsTheRowsThatItsStoreSaysToTheBit) {
 }
 
 TEST(SketchedRun, IsTheSameOnOneAndThreeThreadsInPiecesAndExtended) {
-  const Study study = study_of("failed", 2000, sweep);
+  const Study study = stored_study("failed", 2000, sweep);
   const StudyResult whole = run(study);
-  expect_same(run(study, 3), whole);
+  expect_same_results(run(study, 3), whole);
   FinishedTrials pieces;
   for (const TrialRange range : {TrialRange{3000, 6000}, TrialRange{0, 900}, TrialRange{1200, 3000}}) {
     pieces = joined(std::move(pieces), finished(run_range(study, range, {})));
   }
   EXPECT_EQ(pieces.count(), 5700U);
-  expect_same(run(study, 2, std::move(pieces)), whole);
-  expect_same(run(study, 1, finished(run(study_of("failed", 500, sweep)))), whole);
+  expect_same_results(run(study, 2, std::move(pieces)), whole);
+  expect_same_results(run(study, 1, finished(run(stored_study("failed", 500, sweep)))), whole);
 }
 
 TEST(SketchedRun, StopsWhereARunThatKeepsAllRowsDoes) {
   const std::string rule = R"(, "stop": {"min_trials": 300, "check_every": 130,
                                 "until": [{"metric": "success_rate", "half_width": 0.06}]})";
-  const Study study = study_of("summary", 50000, rule);
-  const StudyResult rows = run(study_of("all", 50000, rule));
+  const Study study = stored_study("summary", 50000, rule);
+  const StudyResult rows = run(stored_study("all", 50000, rule));
   const StudyResult result = run(study, 2);
   EXPECT_TRUE(result.complete);
   ASSERT_LT(result.finished(), 5000U);
@@ -115,12 +115,12 @@ TEST(SketchedRun, StopsWhereARunThatKeepsAllRowsDoes) {
   EXPECT_EQ(trials_due(study, result), result.finished());
   // On with a part of it, and with a part that no rule can go on with.
   const std::uint64_t part = 128;
-  expect_same(run(study, 1, finished(run_range(study, {0, part}, {}))), result);
-  expect_same(run(study, 1, finished(run_range(study, {part, 2 * part}, {}))), result);
+  expect_same_results(run(study, 1, finished(run_range(study, {0, part}, {}))), result);
+  expect_same_results(run(study, 1, finished(run_range(study, {part, 2 * part}, {}))), result);
 }
 
 TEST(SketchedRun, AnInterruptKeepsWholeDrawsAndTheRestRunsLater) {
-  const Study study = study_of("summary", 100000, sweep);
+  const Study study = stored_study("summary", 100000, sweep);
   std::stop_source interrupted;
   RunOptions options;
   options.threads = 1;
@@ -134,11 +134,11 @@ TEST(SketchedRun, AnInterruptKeepsWholeDrawsAndTheRestRunsLater) {
   EXPECT_LT(part.finished(), 300000U);
   EXPECT_EQ(part.finished() % 3, 0U);
   EXPECT_TRUE(part.audit.trials.empty());
-  const Study small = study_of("summary", 1000, sweep);
+  const Study small = stored_study("summary", 1000, sweep);
   options.stop = {};
   options.on_progress = {};
   const StudyResult first = run_range(small, {0, 300}, options);
-  expect_same(run(small, 1, finished(first)), run(small));
+  expect_same_results(run(small, 1, finished(first)), run(small));
 }
 
 class Keeper final : public OutcomeSink {
@@ -149,7 +149,7 @@ class Keeper final : public OutcomeSink {
 };
 
 TEST(SketchedRun, GivesItsSinkEveryTrialOnce) {
-  const Study study = study_of("failed", 3000);
+  const Study study = stored_study("failed", 3000);
   Keeper keeper;
   RunOptions options;
   options.sink = &keeper;
@@ -201,7 +201,7 @@ TEST(TrialSketch, RefusesTrialsThatItHasAndHalfADraw) {
 }
 
 TEST(FinishedTrials, OfSketchesThatOverlapOneStaysWhole) {
-  const Study study = study_of("failed", 2000);
+  const Study study = stored_study("failed", 2000);
   const FinishedTrials a = finished(run_range(study, {0, 1000}, {}));
   const FinishedTrials b = finished(run_range(study, {900, 1200}, {}));
   const FinishedTrials c = finished(run_range(study, {100, 300}, {}));

@@ -10,8 +10,8 @@
 namespace steerstat {
 namespace {
 
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 /// An outcome that tells its trial, and which of two runs it is of.
 TrialOutcome outcome_of(std::uint64_t index, double run = 0.0) {

@@ -192,7 +192,7 @@ TEST_P(EveryMethodWithImperfections, NoiseOfAnotherSeedIsAnotherTrialAndNoneIsNo
 
 INSTANTIATE_TEST_SUITE_P(, EveryMethodWithImperfections, every_method(), method_name);
 
-bool same_course(const TrialOutcome& a, const TrialOutcome& b) {
+bool same_course_of_phases(const TrialOutcome& a, const TrialOutcome& b) {
   return a.status == b.status && a.cycles == b.cycles && a.swings == b.swings && a.alignments == b.alignments;
 }
 
@@ -215,7 +215,7 @@ TEST(ImperfectTrials, LockstepAgreesWithTheReference) {
   std::size_t other_courses = 0;
   for (std::size_t i = 0; i < trials.size(); ++i) {
     converged += reference[i].status == Status::converged ? 1U : 0U;
-    if (!same_course(ours[i], reference[i])) {
+    if (!same_course_of_phases(ours[i], reference[i])) {
       ++other_courses;
       continue;
     }
@@ -248,7 +248,7 @@ TEST(ImperfectTrials, RoundingDoesNotStopTheReferenceAtItsFinest) {
   const TrialOutcome ours = make_runner({IntegratorChoice::Method::lockstep, 1e-12})->run(trial);
   const TrialOutcome reference = make_runner({IntegratorChoice::Method::cvode, 1e-12})->run(trial);
   EXPECT_EQ(reference.status, Status::converged);
-  EXPECT_TRUE(same_course(ours, reference));
+  EXPECT_TRUE(same_course_of_phases(ours, reference));
   EXPECT_NEAR(ours.end_time, reference.end_time, 1e-5);
 }
 

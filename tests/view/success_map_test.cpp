@@ -15,7 +15,7 @@ using testing_report::drawn_spec;
 using testing_report::finished;
 using testing_report::Finished;
 
-std::uint64_t sum(const std::vector<std::uint64_t>& counts) {
+std::uint64_t total(const std::vector<std::uint64_t>& counts) {
   return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
 }
 
@@ -32,7 +32,7 @@ TEST(SuccessMap, CountsEveryTrialOnceAndItsSuccessWhereItIs) {
   const SuccessMap map = map_of(made, "plant.m1", "plant.f2");
   EXPECT_EQ(map.of, 2000U);
   EXPECT_EQ(map.counts.outside, 0U);
-  EXPECT_EQ(sum(map.counts.trials), 2000U);
+  EXPECT_EQ(total(map.counts.trials), 2000U);
   ASSERT_EQ(map.x.bins(), 40U);
   for (std::size_t j = 0; j < map.y.bins(); ++j) {
     for (std::size_t i = 0; i < map.x.bins(); ++i) {
@@ -64,7 +64,7 @@ TEST(SuccessMap, SaysHowManyTrialsLieBeyondAnUnboundedAxis) {
   const SuccessMap map = map_of(made, "plant.m1", "initial_state.q2_dot");
   EXPECT_GT(map.counts.outside, 0U);
   EXPECT_LE(map.counts.outside, 10U);
-  EXPECT_EQ(sum(map.counts.trials) + map.counts.outside, 5000U);
+  EXPECT_EQ(total(map.counts.trials) + map.counts.outside, 5000U);
 }
 
 TEST(SuccessMap, HasTheLevelsOfASweep) {
@@ -73,7 +73,7 @@ TEST(SuccessMap, HasTheLevelsOfASweep) {
   const SuccessMap map = map_of(made, "controller.contraction.eta1", "plant.m1");
   EXPECT_EQ(map.x.levels, (std::vector<double>{0.4, 0.6}));
   EXPECT_EQ(map.of, 200U);
-  EXPECT_EQ(sum(map.counts.trials), 200U);
+  EXPECT_EQ(total(map.counts.trials), 200U);
 }
 
 TEST(SuccessMap, RefusesAxesThatDoNotVaryWithWhatWasMeant) {
