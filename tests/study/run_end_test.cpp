@@ -129,7 +129,7 @@ TEST(RunStudy, AStopDuringTheLastBlockComesTooLateToCutTheRun) {
   EXPECT_EQ(result.trials.index.size(), 40U);
 }
 
-struct Broken : std::runtime_error {
+struct BrokenWorker : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
@@ -141,11 +141,11 @@ TEST(RunStudy, WhatAWorkerThrowsIsRethrownAndEndsTheOthers) {
       ++run;
       if (index == 20) {
         broken = true;
-        throw Broken("trial 20");
+        throw BrokenWorker("trial 20");
       }
       while (index > 100 && !broken) std::this_thread::yield();  // nobody runs away meanwhile
     });
-    EXPECT_THROW(run_study(drawn_study(500000), options), Broken);
+    EXPECT_THROW(run_study(drawn_study(500000), options), BrokenWorker);
     EXPECT_LT(run.load(), 500000U);
   }
 }
@@ -204,18 +204,18 @@ TEST(RunStudy, WhatTheProgressCallbackThrowsIsRethrownAndEndsTheRun) {
   });
   int calls = 0;
   options.on_progress = [&](const Progress&) {
-    if (++calls == 2) throw Broken("progress");
+    if (++calls == 2) throw BrokenWorker("progress");
   };
-  EXPECT_THROW(run_study(drawn_study(100000), options), Broken);
+  EXPECT_THROW(run_study(drawn_study(100000), options), BrokenWorker);
   EXPECT_LT(run.load(), 100000U);
 }
 
 TEST(RunStudy, WhatTheLastProgressCallThrowsIsNotLost) {
   RunOptions options = echo_options(1);
   options.on_progress = [](const Progress& progress) {
-    if (progress.completed == progress.requested) throw Broken("the last report");
+    if (progress.completed == progress.requested) throw BrokenWorker("the last report");
   };
-  EXPECT_THROW(run_study(drawn_study(10), options), Broken);
+  EXPECT_THROW(run_study(drawn_study(10), options), BrokenWorker);
 }
 
 }  // namespace

@@ -163,7 +163,7 @@ void for_each_in_turn(std::size_t count, const std::function<void(std::size_t)>&
 }
 
 TEST(SketchedRun, PutsEveryPieceIntoTheSameMemory) {
-  const Study study = study_of("summary", 300000);
+  const Study study = stored_study("summary", 300000);
   std::set<const TrialOutcome*> places;
   std::uint64_t pieces = 0;
   SketchedRunMeans means;
