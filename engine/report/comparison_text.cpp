@@ -12,7 +12,7 @@ namespace {
 
 using Align = TextTable::Align;
 
-constexpr std::size_t most_listed = 30;
+constexpr std::size_t most_cells_listed = 30;
 constexpr std::size_t longest_value = 60;
 
 std::string side_text(const char* letter, const Comparison::Side& side, bool colour) {
@@ -126,7 +126,7 @@ std::string cells_text(const std::vector<Comparison::Cell>& cells, bool colour) 
                                  {"p (Holm)"},
                                  {"Median B - A [s]"}});
   TextTable table(columns);
-  const std::size_t listed = std::min(cells.size(), most_listed);
+  const std::size_t listed = std::min(cells.size(), most_cells_listed);
   for (std::size_t i = 0; i < listed; ++i) table.add_row(cell_row(cells[i]));
   std::string text = '\n' + table.text(colour);
   if (listed < cells.size()) {
