@@ -18,6 +18,8 @@ export const combinedOf = (name, trials, more = {}) => ({ ...combined, name, sam
 const studies = {
   small: combinedOf("small", 300),
   other: combinedOf("other", 300, { controller: { contraction: { eta2: 0.7 } } }),
+  few: combinedOf("few", 40),
+  fewOthers: combinedOf("few others", 40, { controller: { contraction: { eta2: 0.7 } } }),
   many: combinedOf("many", 30_000),
   robust: combinedOf("robust", 20, { controller: { policy: "robust" } }),
   swept: { ...swept, sampling: { ...swept.sampling, trials: 20 } },

@@ -62,4 +62,18 @@ export function testForm(bench) {
     await bench.page.getByRole("button", { name: "Take goal 1 away" }).click();
     assert.deepEqual(await spec(), combined);
   });
+
+  it("takes listed trials as a table, and tells which of its lines is none", async () => {
+    await bench.show("#/new");
+    await bench.page.getByLabel("Sampling: method").selectOption("explicit");
+    const table = bench.page.getByLabel("Trials: names in the first line");
+    await table.fill("plant.m1, plant.f2\n1.1, 0.02\n0.9, x");
+    await bench.page.getByText("line 3: x is no number").waitFor();
+    await table.fill("plant.m1, plant.f2\n1.1, 0.02\n0.9, 0");
+    const { sampling } = JSON.parse(await bench.page.getByLabel("Spec as JSON").inputValue());
+    assert.deepEqual(sampling, { seed: 1, method: "explicit", trials: [{ "plant.m1": 1.1, "plant.f2": 0.02 }, { "plant.m1": 0.9, "plant.f2": 0 }] });
+    await expectAccessible(bench.page, "listed trials");
+    await bench.page.getByLabel("Sampling: method").selectOption("monte_carlo");
+    await bench.page.getByLabel("Trials", { exact: true }).waitFor();
+  });
 }

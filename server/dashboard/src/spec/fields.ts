@@ -78,6 +78,7 @@ const titles: readonly [key: string, title: string, isOpen: boolean][] = [
   ["audit", "Audit", false],
   ["stop", "When to stop", false],
   ["intervals", "Intervals", false],
+  ["baseline", "Baseline", false],
 ];
 
 /** Sections of the form with their fields, in the order in which one thinks of them. */

@@ -4,6 +4,7 @@ import { type Section, horizonField, nameField, samplingMethods, sections } from
 import { CorrelationEditor, correlationPath } from "./correlation_editor";
 import { GatesEditor } from "./gates_editor";
 import { GoalsEditor } from "./goals_editor";
+import { ListedEditor } from "./listed_editor";
 import { type Edited, FieldEditor, Mistakes, ReadInput, mistakesAt } from "./inputs";
 import { type Path, isObject, isWithin } from "./pointer";
 import { parseNumber } from "./value";
@@ -25,7 +26,6 @@ export function SpecForm({ edited }: { edited: Edited }) {
         <GatesEditor edited={edited} />
       </FormSection>
       {sections.slice(3).map((section) => <SchemaSection key={section.key} section={section} edited={edited} />)}
-      <p class="note">Listed trials and the baseline's test are written in the JSON.</p>
     </div>
   );
 }
@@ -68,16 +68,24 @@ function Sampling({ edited }: { edited: Edited }) {
     const value = parseNumber(text.replace(/,/g, ""));
     return value !== null && Number.isSafeInteger(value) ? value : null;
   };
+  /** A list of trials is no number of them: what another method cannot read is left out. */
+  const choose = (next: string) => {
+    const before = edited.get(["sampling"]);
+    const { trials: kept, ...rest } = isObject(before) ? before : {};
+    const stays = kept !== undefined && (next === "explicit") === Array.isArray(kept) && next !== "grid";
+    edited.set(["sampling"], { ...rest, method: next, ...(stays ? { trials: kept } : {}) });
+  };
   return (
     <div class={`field sampling ${mistakes.length > 0 ? "wrong" : ""}`} data-pointer="/sampling">
       <div class="field-name"><span>Sampling</span><span class="field-hint">How the numbers that vary get their values</span></div>
       <div class="field-control">
-        <select aria-label="Sampling: method" value={chosen} aria-invalid={isWrong("method")} aria-describedby={described} onChange={(event) => edited.set(["sampling", "method"], event.currentTarget.value)}>
+        <select aria-label="Sampling: method" value={chosen} aria-invalid={isWrong("method")} aria-describedby={described} onChange={(event) => choose(event.currentTarget.value)}>
           {samplingMethods.map((each) => <option key={each.value} value={each.value}>{each.text}</option>)}
         </select>
         {chosen !== "grid" && chosen !== "explicit" && (
           <ReadInput label={chosen === "sobol_indices" ? "Rows" : "Trials"} value={typeof trials === "number" ? trials : undefined} show={String} read={whole} onValue={(next) => edited.set(["sampling", "trials"], next)} placeholder="1" wrong="a whole number" inputMode="numeric" isInvalid={isWrong("trials")} describedBy={described} />
         )}
+        {chosen === "explicit" && <ListedEditor edited={edited} isInvalid={isWrong("trials")} describedBy={described} />}
         <ReadInput label="Seed" value={typeof seed === "number" ? seed : undefined} show={String} read={whole} onValue={(next) => edited.set(["sampling", "seed"], next)} placeholder="1" wrong="a whole number" inputMode="numeric" isInvalid={isWrong("seed")} describedBy={described} />
       </div>
       <Mistakes mistakes={mistakes} id={id} />

@@ -1,9 +1,24 @@
+import { listedText, readListed } from "./listed";
 import { describe, expect, it } from "vitest";
 import { allFields, metricNames, rateNames, sections } from "./fields";
 import { lineOf, locate } from "./locate";
 import { type Json, formatSpec, getAt, isWithin, parsePointer, setAt, toPointer } from "./pointer";
 import { shipped } from "./shipped";
 import { begin, build, centre, kindOf, parseNumber, parseNumbers, partsOf, valueKinds } from "./value";
+
+describe("listed trials", () => {
+  const trials = [{ "plant.m1": 1.1, "initial_state.q2": -0.3 }, { "plant.m1": 0.9 }];
+  it("are the same as text and back", () => {
+    expect(listedText(trials)).toBe("plant.m1, initial_state.q2\n1.1, -0.3\n0.9, ");
+    expect(readListed(listedText(trials))).toEqual(trials);
+    expect(readListed(" \n")).toBeUndefined();
+  });
+  it("say in which line they are none", () => {
+    expect(readListed("plant.m1\n1\n1, 2")).toBe("line 3: 2 values, and there are 1 names");
+    expect(readListed("plant.m1\nx")).toBe("line 2: x is no number");
+    expect(readListed("plant.m1,,\n1,2,3")).toMatch(/^line 1/);
+  });
+});
 
 describe("the form's fields", () => {
   it("cover every number of plant, initial state, controller, actuator and sensor", () => {
