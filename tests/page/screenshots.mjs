@@ -83,6 +83,7 @@ try {
   await picture("new-open", "#/new", ".spec-form", async (page) => {
     await page.evaluate(() => document.querySelectorAll("details").forEach((each) => each.setAttribute("open", "")));
   });
+  await picture("new-listed", "#/new", ".spec-form", (page) => page.getByLabel("Sampling: method").selectOption("explicit"));
   await picture("new-refused", "#/new", ".spec-form", async (page) => {
     await page.locator('[data-pointer="/plant/m1"]').getByLabel("low").fill("1.5");
     await page.locator('[data-pointer="/horizon"] input').fill("-1");
@@ -129,6 +130,16 @@ try {
   await picture("report", reported, ".headline");
   await picture("report-why", `${reported}#/studies/x/why`, ".page");
   await picture("report-trials", `${reported}#/studies/x/trials`, ".page");
+
+  const rare = shipped("rare_failures/paper_corner_importance");
+  const weighed = await service.run(rare);
+  await picture("rare", `#/studies/${weighed}`, ".headline");
+  await picture("rare-why", `#/studies/${weighed}/why`, ".map-card canvas");
+  await picture("rare-levels", report("levels", shipped("rare_failures/paper_corner_subset_simulation")), ".headline");
+  const kept = report("kept", { ...trials(combined, 20_000), name: "failures kept", store: "failed" });
+  await picture("kept", kept, ".headline");
+  await picture("kept-why", `${kept}#/studies/x/why`, ".map-card canvas");
+  await picture("kept-none", report("kept-none", { ...trials(combined, 20_000), name: "nothing kept", store: "summary" }), ".headline");
 
   const running = await submit({ ...trials(combined, 10_000_000), name: "a study under way, with a name that is longer than most" });
   const waiting = await submit({ ...trials(combined, 9_000_000), name: "waiting" });
