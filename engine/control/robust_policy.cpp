@@ -32,11 +32,6 @@ constexpr double creeping_range = 0.05;   // [rad] beyond the goal
 constexpr double quick_enough = 0.7;      // share of the wanted speed with which the joint travels on
 constexpr double arrival_speed = 0.03;    // [rad/s] expected, where the joint coasts against the push
 constexpr double least_sine = 1e-3;       // |sin 2 q2| that a cycle's amplitude allows for
-constexpr double first_share = 0.9;       // of the bound on |a|, at most, where an align starts
-constexpr double last_share = 0.95;       // of it, where an align that has ended goes on at a slower pace
-
-/// Share of the bound on |a| at which an align ends: what locating the moment and measuring the peak may miss is less.
-constexpr double highest_ceiling = 1.0 - 1e-6;
 
 double nominal_gain(const Controller& controller) {
   return controller.coupling * controller.coupling * beta;
@@ -63,16 +58,6 @@ double cycle_period(double omega, const Controller::Robust& robust) {
 double speed_after_braking(double omega, double e, double T, const Controller::Robust& robust) {
   const double tau = robust.alignment_time, r = robust.rate;
   return std::max(0.1 * omega, r * (e - 0.5 * T * omega) / (1.0 + r * (0.5 * T + tau)));
-}
-
-/// |a| of (10) at full pace is at most the sum of these [m/s^2]; the first goes with the square of the pace, the second
-/// with the pace.
-struct AlignmentTerms {
-  double stiffness, damping;
-};
-
-AlignmentTerms alignment_terms(const State<double>& x, const Controller& controller, const Goal& goal) {
-  return {controller.alignment.kp * std::abs(x.q1 - goal.q1), controller.alignment.kd * std::abs(x.q1_dot)};
 }
 
 /// The rules in one state; README.md section 1 has the symbols.
@@ -303,25 +288,6 @@ STEERSTAT_CLONED
 Phase steer_robustly(const State<double>& x, const Experience& experience, const Controller& controller,
                      const Goal& goal) {
   return RobustPolicy(x, experience, controller, goal).choose();
-}
-
-Phase align_robustly(const State<double>& x, const Controller& controller, const Goal& goal) {
-  Phase phase;
-  phase.kind = PhaseKind::align;
-  phase.active_tolerance = controller.alignment.tolerance;
-  phase.ceiling = highest_ceiling * controller.robust.max_acceleration;
-  const auto [stiffness, damping] = alignment_terms(x, controller, goal);
-  const double start = first_share * controller.robust.max_acceleration;
-  if (stiffness + damping > start) {  // at this pace they add up to it
-    phase.pace = 2.0 * start / (damping + std::sqrt(damping * damping + 4.0 * stiffness * start));
-  }
-  phase.duration = controller.alignment.max_duration / phase.pace;
-  return phase;
-}
-
-bool aligns_too_fast(const State<double>& x, double pace, const Controller& controller, const Goal& goal) {
-  const auto [stiffness, damping] = alignment_terms(x, controller, goal);
-  return pace * (pace * stiffness + damping) > last_share * controller.robust.max_acceleration;
 }
 
 }  // namespace steerstat

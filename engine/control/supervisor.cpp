@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "control/cycle.hpp"
+#include "control/robust_alignment.hpp"
 #include "control/robust_policy.hpp"
 #include "core/elementary.hpp"
 #include "core/function_clones.hpp"

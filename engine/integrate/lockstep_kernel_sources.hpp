@@ -6,6 +6,8 @@
 
 #include "integrate/lockstep_lanes.hpp"
 
+#include "integrate/lockstep_motion.hpp"
+
 #include "integrate/lockstep_guards.hpp"
 
 #include "integrate/lockstep_exertion.hpp"

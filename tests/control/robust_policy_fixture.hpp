@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "control/cycle.hpp"
+#include "control/robust_alignment.hpp"
 #include "control/robust_policy.hpp"
 #include "control/supervisor.hpp"
 #include "supervision_fixture.hpp"
