@@ -27,13 +27,15 @@ endfunction()
 
 # The tests of a room: an executable test_NAME of GoogleTest cases, each a CTest case.
 #
-#   steerstat_test(NAME SOURCES file... [USES room...] [LIBRARIES target...] [THREADED] [COST seconds])
+#   steerstat_test(NAME SOURCES file... [USES room...] [LIBRARIES target...] [THREADED] [COST seconds]
+#                  [RECORDS_ANSWERS])
 #
 # THREADED  starts threads, so that the thread sanitizer has something to find: labelled "threads" and built by the
 #           target threaded_tests
 # COST      what its longest cases take: CTest starts the longest first, so that none is left running alone at the end
+# RECORDS_ANSWERS  what a service answers its clients is noted in STEERSTAT_ANSWERS (tests/server/recorder.hpp)
 function(steerstat_test name)
-  cmake_parse_arguments(TEST "THREADED" "COST" "SOURCES;USES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(TEST "THREADED;RECORDS_ANSWERS" "COST" "SOURCES;USES;LIBRARIES" ${ARGN})
   list(TRANSFORM TEST_USES PREPEND steerstat::)
   add_executable(test_${name} ${TEST_SOURCES})
   target_link_libraries(test_${name} PRIVATE ${TEST_USES} ${TEST_LIBRARIES} steerstat_flags GTest::gmock_main)
@@ -47,6 +49,10 @@ function(steerstat_test name)
   if(TEST_THREADED)
     list(APPEND properties LABELS threads)
     add_dependencies(threaded_tests test_${name})
+  endif()
+  if(TEST_RECORDS_ANSWERS)
+    list(APPEND properties FIXTURES_REQUIRED forgotten_answers FIXTURES_SETUP answers
+      ENVIRONMENT STEERSTAT_ANSWERS=${STEERSTAT_ANSWERS})
   endif()
   gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
 endfunction()

@@ -3,9 +3,11 @@
 #include <atomic>
 #include <cstdint>
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "study/block_queue.hpp"
+#include "study/check_in.hpp"
 #include "study/finished_prefix.hpp"
 #include "study/handover.hpp"
 #include "study/plan.hpp"
@@ -35,8 +37,14 @@ struct Listeners {
 class BlockStream final : public TrialStream {
  public:
   BlockStream(const PlannedTrials& planned, BlockQueue& blocks, std::vector<TrialOutcome>& outcomes,
-              Listeners listeners, Tally& tally, Turnstile::Turn& turn)
-      : planned_(planned), blocks_(blocks), outcomes_(outcomes), listeners_(listeners), tally_(tally), turn_(turn) {}
+              Listeners listeners, Tally& tally, Turnstile::Turn& turn, const std::stop_token& give_up)
+      : planned_(planned),
+        blocks_(blocks),
+        outcomes_(outcomes),
+        listeners_(listeners),
+        tally_(tally),
+        turn_(turn),
+        give_up_(give_up) {}
 
   bool next(std::uint64_t& index, TrialParameters& parameters) override {
     if (block_.begin == block_.end) {
@@ -59,6 +67,8 @@ class BlockStream final : public TrialStream {
     if (listeners_.handover != nullptr) listeners_.handover->finished(index);
   }
 
+  void check_in() override { steerstat::check_in(turn_, give_up_); }
+
  private:
   const PlannedTrials planned_;
   BlockQueue& blocks_;
@@ -66,6 +76,7 @@ class BlockStream final : public TrialStream {
   const Listeners listeners_;
   Tally& tally_;
   Turnstile::Turn& turn_;
+  const std::stop_token& give_up_;
   TrialRange block_{0, 0};
   bool dry_{false};  // a runner may ask again after the end; the answer stays no
 };

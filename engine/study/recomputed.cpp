@@ -25,13 +25,14 @@ std::vector<std::uint64_t> rows_to_retain(const Retention& retention, const Tria
 }  // namespace
 
 std::vector<StudyResult::Retained> retained_trajectories(const Study& study, const Plan& plan, const TrialTable& trials,
-                                                         Turnstile* turns, const ForEach& for_each) {
+                                                         const RunOptions& options, const ForEach& for_each) {
   const std::vector<std::uint64_t> rows = rows_to_retain(study.retention, trials, study.store == Store::all);
   std::vector<StudyResult::Retained> retained(rows.size());
   for_each(rows.size(), [&](std::size_t i) {
-    const Turnstile::Turn turn(turns);
+    Turnstile::Turn turn(options.turns);
     const std::uint64_t index = trials.index[rows[i]];
-    retained[i] = {index, replay(plan.parameters(index), study.integrator)};
+    retained[i] = {index,
+                   replay(plan.parameters(index), study.integrator, 0.05, 0, [&] { check_in(turn, options.give_up); })};
     if (!same_bits(retained[i].trajectory.outcome, trials.outcomes[rows[i]])) {
       throw std::logic_error("the replay of trial " + std::to_string(index) + " ended differently from its run");
     }
@@ -50,10 +51,11 @@ Audit audit_of(const Study& study, const Plan& plan, std::span<const std::uint64
   const IntegratorChoice auditor = auditor_of(study.integrator);
   std::vector<std::optional<AuditedTrial>> finished(indices.size());
   for_each(indices.size(), [&](std::size_t i) {
-    const Turnstile::Turn turn(options.turns);
+    Turnstile::Turn turn(options.turns);
     if (options.stop.stop_requested()) return;
     const std::uint64_t index = indices[i];
-    finished[i] = audited(index, make_runner(auditor)->run(plan.parameters(index)));
+    const auto runner = make_runner(auditor);
+    finished[i] = audited(index, runner->run(plan.parameters(index), [&] { check_in(turn, options.give_up); }));
   });
   Audit audit{auditor.tolerance, {}};
   for (const std::optional<AuditedTrial>& trial : finished) {

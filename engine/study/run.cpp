@@ -83,7 +83,7 @@ void work(const Study& study, const PlannedTrials& planned, const RunOptions& op
   const auto work_as = [&](std::size_t worker) {
     try {
       Turnstile::Turn turn(options.turns);
-      BlockStream stream(planned, blocks, outcomes, listeners, tallies[worker], turn);
+      BlockStream stream(planned, blocks, outcomes, listeners, tallies[worker], turn, options.give_up);
       const auto runner =
           options.make_runner ? options.make_runner(study.integrator) : make_runner(study.integrator, options.simd);
       runner->run(stream);
@@ -117,8 +117,13 @@ std::uint64_t run_trials(const Study& study, const PlannedTrials& planned, const
   }
   std::vector<Tally> tallies(result.threads);
   ProgressReports reports(options, planned.count(), trials_in(known), tallies, start, blocks);
-  work(study, planned, options, blocks, outcomes, {prefix ? &*prefix : nullptr, handover ? &*handover : nullptr},
-       tallies);
+  try {
+    work(study, planned, options, blocks, outcomes, {prefix ? &*prefix : nullptr, handover ? &*handover : nullptr},
+         tallies);
+  } catch (const RunGivenUp&) {
+    if (handover) handover->finish();
+    throw;
+  }
   result.wall_s = earlier.wall_s + seconds_since(start);
   if (handover) handover->finish();
   reports.finish();
@@ -223,7 +228,7 @@ StudyResult run_study(const Study& study, const RunOptions& options, FinishedTri
   const ForEach wide = for_each_on(std::min(asked, std::max(result.threads, cores)));
   const bool shows = result.complete && study.store == Store::all;
   const Showing showing(shows ? options.sink : nullptr, result.trials.outcomes);
-  result.trajectories = retained_trajectories(study, plan, result.trials, options.turns, wide);
+  result.trajectories = retained_trajectories(study, plan, result.trials, options, wide);
   result.audit = audit_of(study, plan, to_audit, options, wide);
   return result;
 }

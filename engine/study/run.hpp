@@ -9,6 +9,7 @@
 
 #include "core/instruction_set.hpp"
 #include "study/audit.hpp"
+#include "study/check_in.hpp"
 #include "study/outcome_sink.hpp"
 #include "study/plan.hpp"
 #include "study/share.hpp"
@@ -34,10 +35,12 @@ struct RunOptions {
   /// What it throws ends the run and leaves run_study().
   std::function<void(const Progress&)> on_progress{};
   std::stop_token stop{};                       ///< a request ends the run after the blocks in flight
+  std::stop_token give_up{};                    ///< and this one gives them up: the run throws RunGivenUp
   InstructionSet simd{best_instruction_set()};  ///< what lockstep runs on; the outcomes are the same bits on each
   OutcomeSink* sink{nullptr};  ///< takes every finished trial of the run while it goes on; null: nobody does
-  /// What the workers of several runs share the processors through, at every block, and every trial of the audit and of
-  /// the retained; null: nobody is waited for. Whoever sets it says with SharedWorkers how many there may be.
+  /// What the workers of several runs share the processors through, at every block, every trial of the audit and of the
+  /// retained, and every few milliseconds of trials that take long; null: nobody is waited for. Whoever sets it says
+  /// with SharedWorkers how many there may be.
   Turnstile* turns{nullptr};
   /// Makes each worker's runner, on that worker; empty: make_runner(integrator, simd).
   std::function<std::unique_ptr<TrialRunner>(const IntegratorChoice&)> make_runner{};
@@ -96,8 +99,8 @@ class SharedWorkers {
 ///
 /// @param earlier  trials of this study, or of one that it continues(), that need not run again; the result has them
 ///                 too, and is the same as if all had run now
-/// @throws RunFailure, BadUsage where this machine does not run the instruction set asked for, and whatever a worker,
-/// the progress callback or the sink throws, with nothing kept but by the sink.
+/// @throws RunFailure, RunGivenUp, BadUsage where this machine does not run the instruction set asked for, and whatever
+/// a worker, the progress callback or the sink throws, with nothing kept but by the sink.
 StudyResult run_study(const Study& study, const RunOptions& options, FinishedTrials earlier = {});
 
 /// Runs consecutive trials of a study, whatever its rule says, and audits none: of a study that runs in several places.

@@ -3,19 +3,37 @@
 #include "trial/course.hpp"
 
 namespace steerstat {
+namespace {
+
+/// Lets the stream end a phase of millions of steps.
+class CheckingIn final : public StepObserver {
+ public:
+  explicit CheckingIn(TrialStream& stream) : stream_(stream) {}
+  void step(double, double, const DenseOutput&) override {
+    constexpr unsigned steps_between = 1024;  // a few milliseconds
+    if (++steps_ % steps_between == 0) stream_.check_in();
+  }
+
+ private:
+  TrialStream& stream_;
+  unsigned steps_{0};
+};
+
+}  // namespace
 
 CvodeRunner::CvodeRunner(double tolerance, bool metrics) : integrator_(tolerance), metrics_(metrics) {}
 
 void CvodeRunner::run(TrialStream& stream) {
   std::uint64_t index = 0;
   TrialParameters parameters;
+  CheckingIn observer(stream);
   while (stream.next(index, parameters)) {
     const ClosedLoop<double> loop = closed_loop_of(parameters);
     Exertion exertion = exertion_at(parameters.start, parameters.goal.q1);
     Exertion* measured = metrics_ ? &exertion : nullptr;
     TrialOutcome outcome =
         run_course(parameters, exertion, [&](const Phase& phase, double t, const State<double>& x, double t_end) {
-          return integrator_.advance(loop, phase, t, x, t_end, nullptr, measured);
+          return integrator_.advance(loop, phase, t, x, t_end, &observer, measured);
         });
     if (metrics_) report_exertion(exertion, outcome);
     stream.finished(index, outcome);

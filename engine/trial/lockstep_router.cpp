@@ -51,6 +51,7 @@ class Sorter {
   }
 
   void finished(std::uint64_t index, const TrialOutcome& outcome) { source_.finished(index, outcome); }
+  void check_in() { source_.check_in(); }
 
  private:
   static constexpr std::size_t most_waiting = 128;
@@ -77,6 +78,7 @@ class SortedStream final : public TrialStream {
     return sorter_.next(kind_, index, parameters);
   }
   void finished(std::uint64_t index, const TrialOutcome& outcome) override { sorter_.finished(index, outcome); }
+  void check_in() override { sorter_.check_in(); }
 
  private:
   Sorter& sorter_;

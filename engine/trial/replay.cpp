@@ -16,13 +16,14 @@ namespace {
 class PhaseSampler final : public StepObserver {
  public:
   PhaseSampler(const ClosedLoop<double>& loop, const Phase& phase, double start, double interval,
-               std::vector<TrajectorySample>& samples)
+               std::vector<TrajectorySample>& samples, const std::function<void()>& check_in)
       : loop_(loop),
         phase_(phase),
         start_(start),
         interval_(interval),
         next_(std::floor(start / interval) + 1.0),
-        samples_(samples) {}
+        samples_(samples),
+        check_in_(check_in) {}
 
   void take(double t, const State<double>& x) {
     const double a = commanded_acceleration(loop_, phase_, t - start_, x);
@@ -33,6 +34,8 @@ class PhaseSampler final : public StepObserver {
 
   /// Takes the multiples of the interval in [from, to), so that a phase's end is taken once, as its end.
   void step(double, double to, const DenseOutput& output) override {
+    constexpr unsigned steps_between = 1024;  // a few milliseconds
+    if (++steps_ % steps_between == 0 && check_in_) check_in_();
     for (; next_ * interval_ < to; next_ += 1.0) {
       if (next_ * interval_ > start_) take(next_ * interval_, output.at(next_ * interval_));
     }
@@ -45,20 +48,23 @@ class PhaseSampler final : public StepObserver {
   double interval_;
   double next_;  // the next sample, in intervals
   std::vector<TrajectorySample>& samples_;
+  const std::function<void()>& check_in_;
+  unsigned steps_{0};
 };
 
 template <class Integrator>
 Trajectory record(const TrialParameters& parameters, Integrator integrator, bool metrics, double interval,
-                  int per_cycle) {
+                  int per_cycle, const std::function<void()>& check_in) {
   const ClosedLoop<double> loop = closed_loop_of(parameters);
   Exertion exertion = exertion_at(parameters.start, parameters.goal.q1);
   Exertion* measured = metrics ? &exertion : nullptr;
   Trajectory trajectory;
   trajectory.outcome =
       run_course(parameters, exertion, [&](const Phase& phase, double t, const State<double>& x, double t_end) {
+        if (check_in) check_in();
         const std::size_t first = trajectory.samples.size();
         const double longest = per_cycle > 0 ? phase.duration / per_cycle : interval;
-        PhaseSampler sampler(loop, phase, t, std::min(interval, longest), trajectory.samples);
+        PhaseSampler sampler(loop, phase, t, std::min(interval, longest), trajectory.samples, check_in);
         sampler.take(t, x);
         const Arrival arrival = integrator.advance(loop, phase, t, x, t_end, &sampler, measured);
         sampler.take(arrival.t, arrival.state);
@@ -73,15 +79,16 @@ Trajectory record(const TrialParameters& parameters, Integrator integrator, bool
 
 }  // namespace
 
-Trajectory replay(const TrialParameters& parameters, const IntegratorChoice& choice, double interval, int per_cycle) {
+Trajectory replay(const TrialParameters& parameters, const IntegratorChoice& choice, double interval, int per_cycle,
+                  const std::function<void()>& check_in) {
   if (!(interval > 0.0)) throw BadUsage("the sampling interval must be positive");
   switch (choice.method) {
     case IntegratorChoice::Method::cvode:
-      return record(parameters, CvodeIntegrator(choice.tolerance), choice.metrics, interval, per_cycle);
+      return record(parameters, CvodeIntegrator(choice.tolerance), choice.metrics, interval, per_cycle, check_in);
     case IntegratorChoice::Method::lockstep:
       return record(parameters,
                     LockstepIntegrator(choice.tolerance, best_instruction_set(), 0, loop_kind_of(parameters)),
-                    choice.metrics, interval, per_cycle);
+                    choice.metrics, interval, per_cycle, check_in);
   }
   throw RunFailure("unknown integration method");
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "control/phase.hpp"
@@ -40,8 +41,9 @@ struct Trajectory {
 /// @param interval   [s] > 0 between samples inside a phase
 /// @param per_cycle  where positive, samples of a cycle are no farther apart than its period over this many: cycles may
 ///                   be shorter than the interval
+/// @param check_in   called every few milliseconds; what it throws ends the replay
 Trajectory replay(const TrialParameters& parameters, const IntegratorChoice& integrator, double interval = 0.05,
-                  int per_cycle = 0);
+                  int per_cycle = 0, const std::function<void()>& check_in = {});
 
 /// Whether a trial recomputed `now` ended in the same bits as `then`, but for metrics that `then` does not have: files
 /// from before there were metrics hold none.

@@ -10,7 +10,8 @@ namespace {
 /// One trial, and its outcome when it is done.
 class SingleTrial final : public TrialStream {
  public:
-  explicit SingleTrial(const TrialParameters& parameters) : parameters_(parameters) {}
+  SingleTrial(const TrialParameters& parameters, const std::function<void()>& check_in)
+      : parameters_(parameters), check_in_(check_in) {}
 
   bool next(std::uint64_t& index, TrialParameters& parameters) override {
     if (taken_) return false;
@@ -21,19 +22,23 @@ class SingleTrial final : public TrialStream {
   }
 
   void finished(std::uint64_t, const TrialOutcome& outcome) override { outcome_ = outcome; }
+  void check_in() override {
+    if (check_in_) check_in_();
+  }
 
   [[nodiscard]] const TrialOutcome& outcome() const { return outcome_; }
 
  private:
   TrialParameters parameters_;
+  const std::function<void()>& check_in_;
   TrialOutcome outcome_{};
   bool taken_{false};
 };
 
 }  // namespace
 
-TrialOutcome TrialRunner::run(const TrialParameters& parameters) {
-  SingleTrial trial(parameters);
+TrialOutcome TrialRunner::run(const TrialParameters& parameters, const std::function<void()>& check_in) {
+  SingleTrial trial(parameters, check_in);
   run(trial);
   return trial.outcome();
 }

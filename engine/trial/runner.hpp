@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string_view>
 
@@ -32,6 +33,10 @@ class TrialStream {
 
   /// Takes the outcome of trial `index`; outcomes come in any order.
   virtual void finished(std::uint64_t index, const TrialOutcome& outcome) = 0;
+
+  /// Called every few milliseconds while trials are in flight; may wait. What it throws leaves the runner, and those
+  /// trials are given up.
+  virtual void check_in() {}
 };
 
 /// Simulates trials one stream at a time. Not thread-safe: one runner a thread. An outcome depends on the trial's
@@ -40,11 +45,11 @@ class TrialRunner {
  public:
   virtual ~TrialRunner() = default;
 
-  /// Runs `stream` dry.
+  /// Runs `stream` dry. May be called again, also after a stream has thrown.
   virtual void run(TrialStream& stream) = 0;
 
-  /// Runs one trial.
-  TrialOutcome run(const TrialParameters& parameters);
+  /// Runs one trial. @param check_in  as a stream's
+  TrialOutcome run(const TrialParameters& parameters, const std::function<void()>& check_in = {});
 };
 
 /// @param set  what lockstep runs on; the outcomes are the same bits on each

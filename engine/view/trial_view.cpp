@@ -74,8 +74,9 @@ std::array<std::vector<double>, 6> curves_of(const std::vector<TrajectorySample>
 
 }  // namespace
 
-Trajectory replay_for_view(const TrialParameters& parameters, const IntegratorChoice& integrator) {
-  return replay(parameters, integrator, 0.05, samples_per_cycle);
+Trajectory replay_for_view(const TrialParameters& parameters, const IntegratorChoice& integrator,
+                           const std::function<void()>& check_in) {
+  return replay(parameters, integrator, 0.05, samples_per_cycle, check_in);
 }
 
 TrialView trial_view(const Study& study, std::uint64_t index, const TrialParameters& parameters,

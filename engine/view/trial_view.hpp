@@ -44,7 +44,9 @@ struct TrialView {
 };
 
 /// Replays a trial finely enough to draw it: 20 samples a second, and 32 at least within each cycle.
-Trajectory replay_for_view(const TrialParameters& parameters, const IntegratorChoice& integrator);
+/// @param check_in  as replay() takes it
+Trajectory replay_for_view(const TrialParameters& parameters, const IntegratorChoice& integrator,
+                           const std::function<void()>& check_in = {});
 
 /// @param index       of the trial
 /// @param parameters  its own

@@ -52,6 +52,8 @@ void call(const Router::Route& route, const Call& request, httplib::Response& re
     throw Refused({422, "the study is more than the service takes", excess.errors(), {}});
   } catch (const QueueFull& full) {
     throw Refused({503, full.what(), {}, {{"Retry-After", std::to_string(full.retry_after())}}});
+  } catch (const TakesTooLong& slow) {
+    throw Refused({503, slow.what(), {}, {{"Retry-After", "60"}}});
   } catch (const NoSuchStudy& missing) {
     throw Refused({404, missing.what(), {}, {}});
   } catch (const NoSuchTrial& missing) {

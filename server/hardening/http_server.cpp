@@ -177,12 +177,18 @@ class HttpServer::Implementation {
       } catch (const Refused& refused) {
         answer_with(response, refused.problem());
       } catch (const std::exception& bug) {
-        report(std::string("a bug ended a request (") + bug.what() + "); please report it with the request");
-        answer_with(response, {500, "a bug ended the request; the service's log tells more"});
+        answer_with_bug(response, bug.what());
+      } catch (...) {
+        answer_with_bug(response, "of no known kind");
       }
     } catch (...) {
       response.status = 500;
     }
+  }
+
+  void answer_with_bug(httplib::Response& response, const std::string& what) {
+    report("a bug ended a request (" + what + "); please report it with the request");
+    answer_with(response, {500, "a bug ended the request; the service's log tells more"});
   }
 
   void report(const std::string& text) noexcept {

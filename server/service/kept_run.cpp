@@ -40,7 +40,10 @@ RunOptions options_of(const KeptRun& run, OutcomeSink& sink) {
   options.threads = run.threads;
   options.turns = &run.turns;
   options.sink = &sink;
-  options.stop = run.catalogue.look(run.entry, [](const StudyEntry& entry) { return entry.run->stop.get_token(); });
+  run.catalogue.look(run.entry, [&](const StudyEntry& entry) {
+    options.stop = entry.run->stop.get_token();
+    options.give_up = entry.run->give_up.get_token();
+  });
   // Called from one thread at a time.
   options.on_progress = [&run, rate = RecentRate{},
                          counted = std::optional<std::uint64_t>{}](const Progress& progress) mutable {
@@ -181,6 +184,12 @@ bool run_and_keep(const KeptRun& run) noexcept {
   std::optional<std::string> failure;
   try {
     ending = run_to_end(run);
+  } catch (const RunGivenUp&) {
+    ending.completed = run.catalogue.look(run.entry, [](const StudyEntry& entry) { return entry.run->live->kept(); });
+    run.tell(
+        fmt::format("study {} had trials in flight that take long: they are given up, and computed again if it "
+                    "goes on",
+                    run.entry.id));
   } catch (const std::bad_alloc&) {
     failure = "there is not enough memory for it; its finished trials are kept: submit it again when less runs";
   } catch (const RunFailure& problem) {

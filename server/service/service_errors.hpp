@@ -1,5 +1,7 @@
 #pragma once
 
+#include <chrono>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -29,6 +31,15 @@ class QueueFull : public std::runtime_error {
  private:
   unsigned retry_after_;
 };
+
+/// A trial that a client waits for takes longer than it may.
+class TakesTooLong : public std::runtime_error {
+ public:
+  explicit TakesTooLong(std::chrono::milliseconds limit);
+};
+
+/// A check_in() that throws TakesTooLong once so much time has gone by.
+std::function<void()> within(std::chrono::milliseconds limit);
 
 /// There is no study of that id.
 class NoSuchStudy : public std::runtime_error {

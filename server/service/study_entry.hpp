@@ -41,9 +41,11 @@ struct StudyEntry {
   /// What a run adds to it.
   struct Run {
     std::stop_source stop{};
+    std::stop_source give_up{};
     Clock::time_point began{Clock::now()};
-    bool is_cancelled{false};  ///< a client asked for its end
-    bool is_overtime{false};   ///< it ran as long as it may
+    Clock::time_point given_up_at{Clock::time_point::max()};  ///< if it has not ended by then
+    bool is_cancelled{false};                                 ///< a client asked for its end
+    bool is_overtime{false};                                  ///< it ran as long as it may
     std::optional<double> trials_per_s{};
     unsigned threads{0};                         ///< workers
     double earlier_wall_s{0.0};                  ///< [s] that its earlier runs took

@@ -178,7 +178,8 @@ ReplayedTrial StudyReader::trajectory(const StudyEntry& entry, std::uint64_t ind
   TrialPage page = trial(entry, index);
   TrialRow& row = page.rows.front();
   const Plan plan(*entry.study);
-  Trajectory trajectory = replay(plan.parameters_with(index, row.values), entry.study->integrator);
+  Trajectory trajectory =
+      replay(plan.parameters_with(index, row.values), entry.study->integrator, 0.05, 0, within(replaying_time_));
   if (!same_bits(trajectory.outcome, row.outcome)) {
     throw RunFailure(
         fmt::format("trial {} of study {} cannot be replayed: it ended {} at {} s, and is kept as {} at {} s (it was "

@@ -23,12 +23,14 @@ struct SummaryText;
 class StudyReader {
  public:
   /// @param catalogue  must outlive this
-  StudyReader(const Catalogue& catalogue, std::uint64_t opened_bytes) : catalogue_(catalogue), opened_(opened_bytes) {}
+  StudyReader(const Catalogue& catalogue, const ServiceLimits& limits)
+      : catalogue_(catalogue), replaying_time_(limits.replaying_time), opened_(limits.opened_results) {}
 
   [[nodiscard]] SummaryText summary(const StudyEntry& entry);
   [[nodiscard]] TrialPage trials(const StudyEntry& entry, const TrialFilter& filter, std::uint64_t begin,
                                  std::size_t limit);
   [[nodiscard]] TrialPage trial(const StudyEntry& entry, std::uint64_t index);
+  /// @throws TakesTooLong
   [[nodiscard]] ReplayedTrial trajectory(const StudyEntry& entry, std::uint64_t index);
   [[nodiscard]] std::optional<std::filesystem::path> result_file(const StudyEntry& entry);
   [[nodiscard]] Comparison compare(const StudyEntry& a, const StudyEntry& b);
@@ -61,6 +63,7 @@ class StudyReader {
   [[nodiscard]] std::optional<std::string> kept_summary(const StudyEntry& entry) const;
 
   const Catalogue& catalogue_;
+  const std::chrono::milliseconds replaying_time_;
   OpenedStudies opened_;
   IntactFiles intact_{};
   StudyViews views_{};

@@ -60,6 +60,7 @@ std::size_t StudyRunner::queued() const {
 void StudyRunner::stop() {
   {
     const std::lock_guard lock(mutex_);
+    if (!stopping_) stopping_until_ = StudyEntry::Clock::now() + limits_.stopping_time;
     stopping_ = true;
     for (const Running& running : running_) {
       catalogue_.look(*running.entry, [](const StudyEntry& entry) {
@@ -79,6 +80,7 @@ void StudyRunner::dispatch() {
     while (!stopping_ && begin_next()) {
     }
     stop_overtime();
+    give_up_overdue();
     keep_records(lock);
     if (stopping_ && running_.empty()) break;
     const auto has_news = [&] {
@@ -139,10 +141,22 @@ void StudyRunner::stop_overtime() {
       return entry.run && !entry.run->is_overtime && StudyEntry::Clock::now() - entry.run->began >= limits_.wall_time;
     });
     if (!is_overtime) continue;
-    catalogue_.change(*running.entry, [](StudyEntry& entry) {
+    catalogue_.change(*running.entry, [this](StudyEntry& entry) {
       if (!entry.run) return;
       entry.run->is_overtime = true;
+      entry.run->given_up_at = StudyEntry::Clock::now() + limits_.ending_time;
       entry.run->stop.request_stop();
+    });
+  }
+}
+
+/// Gives up the blocks in flight of runs that should have ended by now.
+void StudyRunner::give_up_overdue() {
+  const auto now = StudyEntry::Clock::now();
+  for (const Running& running : running_) {
+    catalogue_.look(*running.entry, [&](const StudyEntry& entry) {
+      if (!entry.run || now < std::min(entry.run->given_up_at, stopping_until_)) return;
+      std::stop_source(entry.run->give_up).request_stop();
     });
   }
 }

@@ -44,7 +44,8 @@ class StudyRunner {
 
   [[nodiscard]] std::size_t queued() const;
 
-  /// Ends the runs after the blocks in flight, and waits for that. What waits is not begun. Idempotent.
+  /// Ends the runs after the blocks in flight, as far as they end soon, and waits for that. What waits is not begun.
+  /// Idempotent.
   void stop();
 
   [[nodiscard]] unsigned threads() const { return threads_; }
@@ -66,6 +67,7 @@ class StudyRunner {
   bool begin_next();
   void reap();
   void stop_overtime();
+  void give_up_overdue();
   void keep_records(std::unique_lock<std::mutex>& lock);
   void run(Running& running);
 
@@ -86,6 +88,7 @@ class StudyRunner {
   std::vector<Catalogue::Entry> unkept_{};        // studies that are over, whose records could not be written
   StudyEntry::Clock::time_point next_keeping_{};  // when that is tried again
   bool stopping_{false};
+  StudyEntry::Clock::time_point stopping_until_{StudyEntry::Clock::time_point::max()};  // then runs are given up
   std::thread dispatcher_{};
 };
 

@@ -79,7 +79,7 @@ class StudyService::Implementation {
       : limits_(limits),
         tell_(in_turn(std::move(tell))),
         data_(data),
-        reader_(catalogue_, limits.opened_results),
+        reader_(catalogue_, limits),
         runner_(catalogue_, threads > 0 ? threads : default_threads(), limits, tell_, std::move(launcher)) {
     std::vector<Catalogue::Entry> unfinished;
     for (const Catalogue::Entry& entry : data_.recover(tell_)) {
@@ -208,8 +208,9 @@ class StudyService::Implementation {
       set_status(entry, StudyStatus::cancelled, utc_now());
       return false;
     }
-    return catalogue_.change(entry, [](StudyEntry& now) {
+    return catalogue_.change(entry, [this](StudyEntry& now) {
       if (!now.run) return false;
+      if (!now.run->is_cancelled) now.run->given_up_at = StudyEntry::Clock::now() + limits_.ending_time;
       now.run->is_cancelled = true;
       now.run->stop.request_stop();
       return true;

@@ -54,7 +54,7 @@ std::string StudyReader::trial_view(const StudyEntry& entry, std::uint64_t index
   const TrialPage page = trial(entry, index);
   const TrialRow& row = page.rows.front();
   const TrialParameters parameters = Plan(*entry.study).parameters_with(index, row.values);
-  const Trajectory trajectory = replay_for_view(parameters, entry.study->integrator);
+  const Trajectory trajectory = replay_for_view(parameters, entry.study->integrator, within(replaying_time_));
   if (!bears_out(trajectory.outcome, row.outcome)) {
     throw RunFailure(
         fmt::format("trial {} of study {} cannot be shown: its replay ends {} at {} s, and it is kept as {} "

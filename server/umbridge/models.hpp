@@ -19,7 +19,8 @@ struct ModelReply {
 class Models {
  public:
   /// @param service  must outlive this
-  explicit Models(StudyService& service) : trial_(service.limits().horizon), study_(service) {}
+  explicit Models(StudyService& service)
+      : trial_(service.limits().horizon, service.limits().replaying_time), study_(service) {}
 
   /// GET /Info.
   [[nodiscard]] static std::string info();

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "core/errors.hpp"
+#include "service/service_errors.hpp"
 #include "study/inputs.hpp"
 #include "study/plan.hpp"
 #include "study/spec_json.hpp"
@@ -40,6 +41,15 @@ TrialParameters parameters_of(const Study& study) {
   return plan.parameters(0);
 }
 
+TrialOutcome run_within(std::chrono::milliseconds patience, const IntegratorChoice& integrator,
+                        const TrialParameters& parameters) {
+  try {
+    return make_runner(integrator)->run(parameters, within(patience));
+  } catch (const TakesTooLong& slow) {
+    throw ModelRefusal(ModelRefusal::invalid_output, slow.what());
+  }
+}
+
 double moved(std::string_view name, double value, double x) {
   const bool relative = name.starts_with("plant.") && value != 0.0;
   return relative ? value * (1.0 + x) : value + x;
@@ -67,7 +77,7 @@ std::vector<double> TrialModel::evaluate(std::span<const double> input, const Js
   }
   IntegratorChoice integrator = study.integrator;
   integrator.metrics = false;  // nobody asks for them
-  const TrialOutcome outcome = make_runner(integrator)->run(parameters_of(study));
+  const TrialOutcome outcome = run_within(patience_, integrator, parameters_of(study));
   const bool converged = outcome.status == Status::converged;
   return {converged ? 1.0 : 0.0, converged ? outcome.settling_time() : study.horizon,
           static_cast<double>(outcome.cycles)};

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <chrono>
+
 #include "umbridge/model.hpp"
 
 namespace steerstat {
@@ -15,8 +17,10 @@ namespace steerstat {
 /// cycles].
 class TrialModel final : public Model {
  public:
-  /// @param longest_horizon  [s] that a trial may have, which nothing interrupts
-  explicit TrialModel(double longest_horizon) : longest_horizon_(longest_horizon) {}
+  /// @param longest_horizon  [s] that a trial may have
+  /// @param patience         how long an evaluation may take
+  TrialModel(double longest_horizon, std::chrono::milliseconds patience)
+      : longest_horizon_(longest_horizon), patience_(patience) {}
 
   [[nodiscard]] std::string_view name() const override { return "trial"; }
   [[nodiscard]] std::size_t inputs(const Json& config) const override;
@@ -25,6 +29,7 @@ class TrialModel final : public Model {
 
  private:
   double longest_horizon_;
+  std::chrono::milliseconds patience_;
 };
 
 }  // namespace steerstat

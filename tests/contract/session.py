@@ -3,7 +3,7 @@
 
 Usage: session.py STEERSTAT OUTPUT.json
 
-The output is {"openapi", "schemas": {name: schema}, "exchanges": [{"method", "path", "status", "type", "body"}]}, bodies of
+The output is {"openapi", "schemas": {name: schema}, "exchanges": [{"method", "path", "status", "type", "headers", "body"}]}, bodies of
 JSON as values, others as text.
 """
 
@@ -32,7 +32,7 @@ def main(program, output):
             is_json = kind in ("application/json", "application/problem+json")
             value = json.loads(content) if is_json else content[:100].decode("latin-1")
             exchanges.append({"method": method, "path": path.partition("?")[0], "status": status, "type": kind,
-                              "body": value})
+                              "headers": {name.lower(): text for name, text in fields.items()}, "body": value})
             return status, fields, value
 
         ask("GET", "/healthz")
@@ -74,7 +74,11 @@ def main(program, output):
             ask("GET", long + path)
         ask("DELETE", long)
         ask("DELETE", long)
-        for path in ("/metrics", "/", "/v1/schemas/summary", "/v1/schemas/none"):
+        trial, nothing = {"name": "trial", "config": {}}, {"name": "none"}
+        for action in ("ModelInfo", "InputSizes", "OutputSizes", "Evaluate", "Gradient", "ApplyJacobian", "ApplyHessian"):
+            for question in ({**trial, "input": [[0, 0, 0, 0]]}, {**trial, "input": [[0]]}, nothing, b"["):
+                ask("POST", f"/{action}", question, {"Content-Type": "text/plain"})
+        for path in ("/Info", "/page.css", "/page.js", "/metrics", "/", "/v1/schemas/summary", "/v1/schemas/none"):
             ask("GET", path)
         openapi = ask("GET", "/openapi.json")[2]
         names = [path.name for path in (pathlib.Path(__file__).resolve().parents[2] / "schemas").glob("*.schema.json")]

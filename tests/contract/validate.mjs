@@ -4,12 +4,13 @@
 //   node validate.mjs approximations SCHEMA SPECS CORPUS     the same for approximation studies
 //   node validate.mjs summaries SCHEMA SUMMARY...   summaries pass, and every broken copy of one is refused
 //   node validate.mjs exchanges SESSION     a service's answers, each against what its own /openapi.json says of it
+//   node validate.mjs answers SESSION DIRECTORY     the same of those that tests noted there
 //
 // Exits 1 after naming every document with the wrong verdict, and where there was nothing to check.
 import { readFileSync, readdirSync } from "node:fs";
 import { dirname, join } from "node:path";
 import Ajv2020 from "ajv/dist/2020.js";
-import { answerCheck } from "./answers.mjs";
+import { answerCheck, asNoted } from "./answers.mjs";
 
 const read = (path) => JSON.parse(readFileSync(path, "utf8"));
 
@@ -108,13 +109,59 @@ function checkExchanges([session]) {
   const operations = Object.entries(openapi.paths).flatMap(([path, item]) =>
     ["get", "post", "delete"].filter((method) => item[method]).map((method) => `${path} ${method}`));
   for (const operation of operations) {
-    if (![...seen].some((key) => key?.startsWith(`${operation} 2`))) mistakes.push(`${operation} was never answered well`);
+    const [path, method] = operation.split(" ");
+    const described = Object.keys(openapi.paths[path][method].responses);
+    const isOptional = described.includes("404") && !path.includes("{"); // a program without the page is one
+    if (described.some((status) => status < 300) && !isOptional && ![...seen].some((key) => key?.startsWith(`${operation} 2`))) mistakes.push(`${operation} was never answered well`);
   }
+}
+
+// Of an answer, copies that the check must refuse: of another status, type or body, or without a header that it needs.
+function* brokenAnswers(exchange) {
+  yield ["of another status", { ...exchange, status: 299 }];
+  yield ["of another type", { ...exchange, type: "text/x-other" }];
+  if (exchange.type.endsWith("json") && exchange.method !== "HEAD") {
+    yield ["with another body", { ...exchange, body: [true] }];
+    if (exchange.type === "application/problem+json") {
+      for (const key of ["type", "title", "status", "detail"]) yield [`without ${key}`, { ...exchange, body: { ...exchange.body, [key]: undefined } }];
+    }
+  }
+  const needed = { 201: "location", 206: "content-range", 304: "etag", 401: "www-authenticate", 405: "allow", 503: "retry-after" }[exchange.status];
+  if (needed) yield [`without ${needed}`, { ...exchange, headers: { ...exchange.headers, [needed]: undefined } }];
+}
+
+function checkAnswers([session, directory]) {
+  const { openapi, schemas } = read(session);
+  const check = answerCheck(openapi, schemas);
+  const counts = new Map();
+  const files = readdirSync(directory).filter((name) => name.endsWith(".jsonl"));
+  for (const kind of ["raw", "python", "relay"]) { // tests that speak to sockets, through Python, and others' clients
+    if (!files.some((name) => name.startsWith(kind))) mistakes.push(`no test noted its answers in ${directory}/${kind}-*`);
+  }
+  for (const file of files) {
+    for (const line of readFileSync(join(directory, file), "utf8").split("\n").filter(Boolean)) {
+      const exchange = asNoted(JSON.parse(line));
+      checks += 1;
+      const mistake = check(exchange);
+      if (mistake) {
+        mistakes.push(`${file}: ${mistake}`);
+        continue;
+      }
+      const kind = `${exchange.answerer} ${exchange.type} ${check.described}`;
+      counts.set(kind, (counts.get(kind) ?? 0) + 1);
+      if (counts.get(kind) > 1) continue;
+      for (const [change, copy] of brokenAnswers(exchange)) {
+        checks += 1;
+        if (!check(copy)) mistakes.push(`${file}: ${kind} ${change} is accepted, and must not be`);
+      }
+    }
+  }
+  for (const [kind, count] of [...counts].sort()) console.log(`${count} ${kind}`);
 }
 
 const [mode, ...rest] = process.argv.slice(2);
 const checkApproximations = (files) => checkSpecs(files, isApproximation);
-({ specs: checkSpecs, approximations: checkApproximations, summaries: checkSummaries, exchanges: checkExchanges })[mode](rest);
+({ specs: checkSpecs, approximations: checkApproximations, summaries: checkSummaries, exchanges: checkExchanges, answers: checkAnswers })[mode](rest);
 for (const mistake of mistakes) console.error(mistake);
 console.log(`${checks} verdicts, ${mistakes.length} wrong`);
 process.exitCode = mistakes.length === 0 && checks > 0 ? 0 : 1;

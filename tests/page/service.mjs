@@ -2,11 +2,14 @@
 import { spawn, execFileSync } from "node:child_process";
 import { once } from "node:events";
 import { createInterface } from "node:readline";
+import { relayTo } from "./relay.mjs";
 
 const program = process.env.STEERSTAT ?? "build/ci/steerstat";
 
 export class Service {
   #process = null;
+  #port = "0";
+  #relay = null; // the page asks it, so that every answer is noted
   url = "";
 
   constructor(data) {
@@ -15,16 +18,25 @@ export class Service {
 
   /** Returns once it says that it serves: at a free port, after a kill at the same one. */
   async start() {
-    const port = this.url === "" ? "0" : new URL(this.url).port;
-    this.#process = spawn(program, ["serve", "--port", port, "--data", this.data], { stdio: ["ignore", "pipe", "inherit"] });
+    this.#process = spawn(program, ["serve", "--port", this.#port, "--data", this.data], { stdio: ["ignore", "pipe", "inherit"] });
     for await (const line of createInterface({ input: this.#process.stdout })) {
       const found = /http:\/\/\S+/.exec(line);
       if (found) {
-        this.url = new URL("/", found[0]).href;
+        this.#port = new URL(found[0]).port;
+        await this.#openRelay();
         return;
       }
     }
     throw new Error("the service ended before it served");
+  }
+
+  async #openRelay() {
+    if (this.#relay !== null) return;
+    this.#relay = relayTo(() => this.#port);
+    this.#relay.listen(0, "127.0.0.1");
+    await once(this.#relay, "listening");
+    this.#relay.unref();
+    this.url = `http://127.0.0.1:${this.#relay.address().port}/`;
   }
 
   async kill(signal = "SIGKILL") {

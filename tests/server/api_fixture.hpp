@@ -36,7 +36,8 @@ class ApiCase : public ServiceCase {
     server.reset();
     api = std::make_unique<Api>(*service, std::move(options));
     server = std::make_unique<OpenServer>(
-        at_free_port(), [this](const auto& question, auto& answer) { api->answer(question, answer); });
+        at_free_port(), [this](const auto& question, auto& answer) { api->answer(question, answer); },
+        Answerer::service);
     port = server->port();
   }
 

@@ -25,7 +25,7 @@ using Clock = std::chrono::steady_clock;
 void echo(const httplib::Request& request, httplib::Response& response) {
   if (request.path == "/throw") throw std::runtime_error("a secret");
   if (request.path == "/throw/anything") throw 5;
-  if (request.path == "/refuse") throw Refused({422, "as asked", {{"/a", "wrong"}}, {{"Retry-After", "7"}}});
+  if (request.path == "/refuse") throw Refused({503, "as asked", {{"/a", "wrong"}}, {{"Retry-After", "7"}}});
   if (request.path == "/large") {
     response.set_content(std::string(std::size_t{16} << 20U, 'x'), "text/plain");
     return;
@@ -78,6 +78,7 @@ TEST_F(Door, WhatIsThrownNeverShows) {
   for (const std::string path : {"/throw", "/throw/anything"}) {
     const RawResponse response = ask(port_, request("GET", path));
     EXPECT_EQ(response.status, 500);
+    EXPECT_EQ(response.field("Content-Type"), "application/problem+json");
     EXPECT_EQ((response.head + response.body).find("secret"), std::string::npos) << response.head;
     EXPECT_EQ(response.head.find("EXCEPTION"), std::string::npos) << response.head;
   }
@@ -85,11 +86,11 @@ TEST_F(Door, WhatIsThrownNeverShows) {
 
 TEST_F(Door, RefusalsAreProblems) {
   const RawResponse response = ask(port_, request("GET", "/refuse"));
-  EXPECT_EQ(response.status, 422);
+  EXPECT_EQ(response.status, 503);
   EXPECT_EQ(response.field("Content-Type"), "application/problem+json");
   EXPECT_EQ(response.field("Retry-After"), "7");
   EXPECT_EQ(response.body,
-            "{\"type\":\"about:blank\",\"title\":\"Unprocessable Content\",\"status\":422,\"detail\":\"as "
+            "{\"type\":\"about:blank\",\"title\":\"Service Unavailable\",\"status\":503,\"detail\":\"as "
             "asked\",\"errors\":[{"
             "\"pointer\":\"/a\",\"detail\":\"wrong\"}]}\n");
 }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "hardening/http_server.hpp"
+#include "recorder.hpp"
 
 namespace steerstat::testing {
 
@@ -17,7 +18,11 @@ inline DoorOptions at_free_port() {
 /// Open from the start.
 class OpenServer : public HttpServer {
  public:
-  OpenServer(DoorOptions options, Handler handler) : HttpServer(std::move(options)) { open(std::move(handler)); }
+  OpenServer(DoorOptions options, Handler handler, Answerer answerer = Answerer::door)
+      : HttpServer(std::move(options)) {
+    record_answers(port(), answerer);
+    open(std::move(handler));
+  }
 };
 
 }  // namespace steerstat::testing

@@ -4,10 +4,14 @@
 #include <poll.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <system_error>
+#include <utility>
+
+#include "recorder.hpp"
 
 namespace steerstat::testing {
 
@@ -18,7 +22,7 @@ std::string RawResponse::field(const std::string& name) const {
   return head.substr(begin, head.find("\r\n", begin) - begin);
 }
 
-RawClient::RawClient(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+RawClient::RawClient(std::uint16_t port) : port_(port), socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_port = htons(port);
@@ -28,7 +32,26 @@ RawClient::RawClient(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM
   }
 }
 
+RawClient::~RawClient() {
+  const std::size_t end = streamed_.find("\r\n\r\n");
+  if (end == std::string::npos) return;
+  const int status = std::atoi(streamed_.c_str() + 9);
+  note_answer(port_, sent_, {status, streamed_.substr(0, end + 2), streamed_.substr(end + 4)});
+}
+
+/// The first request of those that are not answered.
+std::string RawClient::take_request() {
+  const std::size_t end = sent_.find("\r\n\r\n");
+  if (end == std::string::npos) return std::exchange(sent_, {});
+  const RawResponse head{0, sent_.substr(0, end + 2), {}};
+  const std::size_t length = std::strtoul(head.field("Content-Length").c_str(), nullptr, 10);
+  std::string request = sent_.substr(0, end + 4 + std::min(length, sent_.size()));
+  sent_.erase(0, request.size());
+  return request;
+}
+
 bool RawClient::send(const std::string& bytes) {
+  sent_ += bytes;
   std::size_t done = 0;
   while (done < bytes.size()) {
     const ssize_t count = ::send(socket_.get(), bytes.data() + done, bytes.size() - done, MSG_NOSIGNAL);
@@ -69,6 +92,7 @@ RawResponse RawClient::receive(bool head_only, std::chrono::milliseconds patienc
   }
   response.body = received_.substr(0, size);
   received_.erase(0, size);
+  note_answer(port_, response.status == 100 ? sent_ : take_request(), response);
   return response;
 }
 
@@ -81,6 +105,7 @@ std::string RawClient::receive_until(const std::string& text, std::chrono::milli
   const std::size_t size = at == std::string::npos ? received_.size() : at + text.size();
   std::string result = received_.substr(0, size);
   received_.erase(0, size);
+  streamed_ += result;
   return result;
 }
 

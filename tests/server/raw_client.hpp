@@ -18,10 +18,13 @@ struct RawResponse {
   [[nodiscard]] std::string field(const std::string& name) const;
 };
 
-/// Speaks whatever bytes a test wants to 127.0.0.1.
+/// Speaks whatever bytes a test wants to 127.0.0.1. What is answered is noted (recorder.hpp).
 class RawClient {
  public:
   explicit RawClient(std::uint16_t port);
+  ~RawClient();
+  RawClient(const RawClient&) = delete;
+  RawClient& operator=(const RawClient&) = delete;
 
   /// @return whether the other side took all of it
   bool send(const std::string& bytes);
@@ -36,9 +39,13 @@ class RawClient {
 
  private:
   bool fill(std::chrono::steady_clock::time_point end);
+  std::string take_request();
 
+  const std::uint16_t port_;
   FileDescriptor socket_;
-  std::string received_;
+  std::string sent_;      // requests that are not answered yet
+  std::string received_;  // and not taken yet
+  std::string streamed_;  // taken piece by piece
 };
 
 /// Sends a request on a connection of its own.

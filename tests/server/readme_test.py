@@ -4,6 +4,7 @@
 Usage: readme_test.py STEERSTAT README.md
 """
 
+import contextlib
 import json
 import os
 import pathlib
@@ -13,6 +14,17 @@ import sys
 import tempfile
 
 from served import served
+
+
+@contextlib.contextmanager
+def relayed(port):
+    """The port of a relay to the service at `port` that notes its answers: clients here are not of our making."""
+    relay = pathlib.Path(__file__).resolve().parent / "relay.mjs"
+    with subprocess.Popen(["node", relay, str(port)], stdout=subprocess.PIPE, text=True) as process:
+        try:
+            yield int(process.stdout.readline())
+        finally:
+            process.terminate()
 
 
 def blocks(readme, language):
@@ -40,9 +52,10 @@ def main(program, readme):
     summaries = [line for line in commands if "/summary" in line]
     if len(posts) != 1 or len(summaries) != 1:
         sys.exit(f"expected a curl that posts and one that reads the summary, not {commands}")
-    with tempfile.TemporaryDirectory() as scratch, served(program, pathlib.Path(scratch) / "data") as service:
+    with (tempfile.TemporaryDirectory() as scratch, served(program, pathlib.Path(scratch) / "data") as service,
+          relayed(service.port) as port):
         assert "127.0.0.1:8080" in posts[0] and "127.0.0.1:8080" in python
-        here = f"127.0.0.1:{service.port}"
+        here = f"127.0.0.1:{port}"
         state = json.loads(run(scratch, "bash", "-c", posts[0].replace("127.0.0.1:8080", here)))
         service.wait_for_end(f"/v1/studies/{state['id']}")
         command = re.sub(r"/v1/studies/\w+/", f"/v1/studies/{state['id']}/", summaries[0])

@@ -15,7 +15,7 @@ import tempfile
 import time
 import unittest
 
-from served import served
+from served import note_answer, served
 
 PROGRAM = sys.argv.pop(1)
 SPEC = {"plant": {"m1": {"uniform": [0.8, 1.2]}}, "horizon": 20, "audit": {"trials": 0}, "sampling": {"trials": 100}}
@@ -107,6 +107,11 @@ class Serve(unittest.TestCase):
                 begin = time.monotonic()
                 self.assertEqual(service.stop()[0], 0)
                 self.assertLess(time.monotonic() - begin, 60)
+                while piece := stream.recv(4096):
+                    received += piece
+            head, _, events = received.partition(b"\r\n\r\n")
+            first, *fields = head.decode().split("\r\n")
+            note_answer("GET", f"{study}/events", int(first.split()[1]), [field.split(": ", 1) for field in fields], events)
 
     def test_while_slow_clients_drip_and_trials_run_it_answers(self):
         with served(PROGRAM, self.data) as service:

@@ -2,12 +2,27 @@
 
 import contextlib
 import json
+import os
+import pathlib
 import re
 import signal
 import subprocess
 import time
 import urllib.error
 import urllib.request
+
+
+def note_answer(method, target, status, fields, body):
+    """Notes an answer in the directory that STEERSTAT_ANSWERS names, for tests/contract to hold it against
+    schemas/openapi.yaml. @param fields  [(name, value)]"""
+    directory = os.environ.get("STEERSTAT_ANSWERS")
+    if not directory:
+        return
+    head = "".join(f"{name}: {value}\r\n" for name, value in fields)
+    line = json.dumps({"answerer": "service", "method": method, "target": target, "status": status, "head": head,
+                       "body": body.decode("latin-1")})
+    with open(pathlib.Path(directory) / f"python-{os.getpid()}.jsonl", "a", encoding="ascii") as file:
+        file.write(line + "\n")
 
 
 class NotReady(AssertionError):
@@ -34,7 +49,12 @@ class Served:
         self.url, self.port = match[1], int(match[2])
 
     def ask(self, method, path, body=None, headers=()):
-        """(status, headers, body) of an answer, whatever the status."""
+        """(status, headers, body) of an answer, whatever the status; it is noted."""
+        status, fields, content = self._ask(method, path, body, headers)
+        note_answer(method, path, status, fields.items(), content)
+        return status, fields, content
+
+    def _ask(self, method, path, body, headers):
         data = None if body is None else body if isinstance(body, bytes) else json.dumps(body).encode()
         headers = {"Content-Type": "application/json", **dict(headers)} if data is not None else dict(headers)
         request = urllib.request.Request(self.url + path, data=data, method=method, headers=headers)

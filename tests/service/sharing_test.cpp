@@ -66,6 +66,41 @@ TEST_F(Sharing, ACancelledStudyBeginsNoFurtherBlock) {
   EXPECT_EQ(after.completed % 128, 0U) << "whole blocks are kept";
 }
 
+TEST_F(Sharing, TrialsThatTakeMinutesHoldNoOtherStudyUp) {
+  service.reset();
+  limits.stopping_time = std::chrono::milliseconds(0);
+  begin();
+  const std::string endless = service->submit(endless_spec()).state.id;
+  wait_for_work(endless);
+  const std::string small = service->submit(quick_spec(1000)).state.id;
+  wait_for(small, StudyStatus::succeeded);
+  EXPECT_EQ(service->state(endless)->status, StudyStatus::running);
+  EXPECT_EQ(service->state(endless)->completed, 0U);
+}
+
+TEST_F(Sharing, TrialsThatTakeMinutesAreGivenUpWhenTheirStudyIsCancelledAndItCanGoOn) {
+  service.reset();
+  limits.ending_time = limits.stopping_time = std::chrono::milliseconds(0);
+  limits.cancelling_time = std::chrono::minutes(10);
+  begin();
+  const std::string id = service->submit(endless_spec()).state.id;
+  wait_for_work(id);
+  EXPECT_EQ(service->cancel_or_remove(id).state.status, StudyStatus::cancelled);
+  EXPECT_FALSE(service->submit(endless_spec()).created);
+  wait_for_work(id);
+  restart();
+  wait_for_work(id);
+  EXPECT_EQ(service->cancel_or_remove(id).state.status, StudyStatus::cancelled);
+  EXPECT_TRUE(service->cancel_or_remove(id).removed);
+}
+
+TEST_F(Sharing, ATrialThatAClientWaitsForMayNotTakeMinutes) {
+  const auto check_in = within(std::chrono::milliseconds(0));
+  std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_THROW(check_in(), TakesTooLong);
+  EXPECT_NO_THROW(within(std::chrono::minutes(10))());
+}
+
 TEST_F(Sharing, TheSummaryOfARunningStudyIsOfAPrefixThatGrows) {
   const std::string id = service->submit(long_spec()).state.id;
   wait_for_kept_trials(id);

@@ -1,9 +1,10 @@
-// Runs that end on the precision of what they have found.
+// Runs that end before their last trial: on the precision of what they have found, or given up.
 
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <memory>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -176,6 +177,61 @@ TEST(RunStudyThatStops, AuditsAndRetainsTrialsThatItKeeps) {
     EXPECT_EQ(one.audit.trials[i].index, three.audit.trials[i].index);
   }
   EXPECT_EQ(one.trajectories.size(), 2U);
+}
+
+TEST(RunStudyGivenUp, LeavesTheTrialsInFlightAndHandsOverWhatHadFinished) {
+  const Study study = stopping_study(rate_within_5_percent, R"(, "horizon": 50)");
+  constexpr std::uint64_t endless = 70;
+  std::stop_source give_up;
+  struct Kept final : OutcomeSink {
+    void take(std::uint64_t begin, std::span<const TrialOutcome> outcomes) override {
+      EXPECT_EQ(begin, trials);
+      trials += outcomes.size();
+    }
+    std::uint64_t trials{0};
+  } kept;
+  RunOptions options;
+  options.threads = 1;
+  options.give_up = give_up.get_token();
+  options.sink = &kept;
+  options.make_runner = [&](const IntegratorChoice&) {
+    struct Endless final : TrialRunner {
+      explicit Endless(std::stop_source& source) : give_up(source) {}
+      using TrialRunner::run;
+      void run(TrialStream& stream) override {
+        std::uint64_t index = 0;
+        TrialParameters parameters;
+        while (stream.next(index, parameters)) {
+          if (index == endless) give_up.request_stop();
+          while (index == endless) stream.check_in();
+          stream.finished(index, DrawRunner::outcome_of(parameters));
+        }
+      }
+      std::stop_source& give_up;
+    };
+    return std::make_unique<Endless>(give_up);
+  };
+  EXPECT_THROW(run_study(study, options), RunGivenUp);
+  EXPECT_EQ(kept.trials, endless / block_size(study) * block_size(study));
+}
+
+/// Starts so fast that a trial takes a minute or more.
+Study endless_study(const std::string& method) {
+  return decode_study(R"({"initial_state": {"q2_dot": 1e8}, "integrator": {"method": ")" + method +
+                          R"("}, "sampling": {"trials": 20}})",
+                      {});
+}
+
+TEST(RunStudyGivenUp, EndsAtOnceWhateverItIsAt) {
+  std::stop_source give_up;
+  give_up.request_stop();
+  for (const std::string method : {"lockstep", "cvode"}) {
+    const Study study = endless_study(method);
+    const auto check_in = [] { throw RunGivenUp(); };
+    EXPECT_THROW(run_study(study, {.threads = 2, .give_up = give_up.get_token()}), RunGivenUp) << method;
+    EXPECT_THROW(replay(Plan(study).parameters(0), study.integrator, 0.05, 0, check_in), RunGivenUp);
+    EXPECT_THROW(make_runner(study.integrator)->run(Plan(study).parameters(0), check_in), RunGivenUp);
+  }
 }
 
 TEST(Watched, SaysNothingWithoutARuleAndStopsAtTheFirstGap) {
