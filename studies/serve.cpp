@@ -29,7 +29,8 @@ describes the API, / is the dashboard. A study is accepted once it is on the dis
 start. One process serves a directory at a time.
 
 Prints one line with its address once it is ready. The first interrupt (Ctrl-C, SIGTERM) finishes the trials in flight,
-keeps everything and exits 0; a second one ends at once, and loses no finished study either.
+but for those that take longer than half a minute, keeps everything and exits 0; a second one ends at once, and loses no
+finished study either.
 
 Others than this machine's users reach it only with --host and a --token-file, a file of its owner's alone:
   (umask 077 && openssl rand -hex 32 > token)

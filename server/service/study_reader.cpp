@@ -180,14 +180,18 @@ ReplayedTrial StudyReader::trajectory(const StudyEntry& entry, std::uint64_t ind
   const Plan plan(*entry.study);
   Trajectory trajectory =
       replay(plan.parameters_with(index, row.values), entry.study->integrator, 0.05, 0, within(replaying_time_));
-  if (!same_bits(trajectory.outcome, row.outcome)) {
-    throw RunFailure(
-        fmt::format("trial {} of study {} cannot be replayed: it ended {} at {} s, and is kept as {} at {} s (it was "
-                    "computed by engine {}, this is {}); replay it with the build that computed it",
-                    index, entry.id, name_of(trajectory.outcome.status), trajectory.outcome.end_time,
-                    name_of(row.outcome.status), row.outcome.end_time, entry.origin.engine_version, engine_version()));
-  }
+  require_same_end(entry, index, trajectory.outcome, row.outcome);
   return {std::move(page.names), std::move(row.values), std::move(trajectory)};
+}
+
+void StudyReader::require_same_end(const StudyEntry& entry, std::uint64_t index, const TrialOutcome& now,
+                                   const TrialOutcome& then) {
+  if (bears_out(now, then)) return;
+  throw RunFailure(
+      fmt::format("trial {} of study {} cannot be replayed: it ends {} at {} s, and is kept as {} at {} s (it was "
+                  "computed by engine {}, this is {}); replay it with the build that computed it",
+                  index, entry.id, name_of(now.status), now.end_time, name_of(then.status), then.end_time,
+                  entry.origin.engine_version, engine_version()));
 }
 
 std::optional<std::filesystem::path> StudyReader::result_file(const StudyEntry& entry) {

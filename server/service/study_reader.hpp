@@ -61,6 +61,9 @@ class StudyReader {
   [[nodiscard]] std::shared_ptr<const KeptStudy> opened(const StudyEntry& entry);
   [[nodiscard]] std::shared_ptr<const KeptStudy> everything(const StudyEntry& entry);
   [[nodiscard]] std::optional<std::string> kept_summary(const StudyEntry& entry) const;
+  /// @throws RunFailure where a trial computed again did not end as it is kept
+  static void require_same_end(const StudyEntry& entry, std::uint64_t index, const TrialOutcome& now,
+                               const TrialOutcome& then);
 
   const Catalogue& catalogue_;
   const std::chrono::milliseconds replaying_time_;

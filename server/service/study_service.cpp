@@ -11,12 +11,12 @@
 #include "report/readable.hpp"
 #include "service/catalogue.hpp"
 #include "service/data_directory.hpp"
+#include "service/excesses.hpp"
 #include "service/kept_run.hpp"
 #include "service/study_reader.hpp"
 #include "service/study_runner.hpp"
 #include "store/free_space.hpp"
 #include "study/continuation.hpp"
-#include "study/plan.hpp"
 #include "study/spec_json.hpp"
 
 namespace steerstat {
@@ -30,44 +30,6 @@ Tell in_turn(Tell tell) {
     const std::lock_guard lock(*mutex);
     if (tell) tell(line);
   };
-}
-
-/// What of a study is too much. @param memory  [bytes] that studies may need
-std::vector<SpecError> excesses(const Study& study, const ServiceLimits& limits, std::uint64_t memory) {
-  std::vector<SpecError> errors;
-  if (study.store != Store::all) {
-    errors.push_back({"/store", fmt::format("\"{}\" (the service answers for every trial and keeps all of their rows); "
-                                            "remove it, or run the study with steerstat run",
-                                            store_names[static_cast<std::size_t>(study.store)])});
-  }
-  const Plan plan(study);
-  if (study.sampling.method == SamplingMethod::subset_simulation) {
-    errors.push_back(
-        {"/sampling/method",
-         "subset_simulation is not run here (its trials follow from those before, so that nothing is known until the "
-         "last); use importance or monte_carlo, or steerstat run"});
-  }
-  if (plan.trials() > limits.trials) {
-    errors.push_back(
-        {"/sampling/trials", fmt::format("{} trials in all cells together (at most {} here); ask for fewer",
-                                         readable_count(plan.trials()), readable_count(limits.trials))});
-  }
-  if (plan.cells() > limits.cells) {
-    errors.push_back({"", fmt::format("the sweeps make {} cells (at most {} here); sweep fewer values",
-                                      readable_count(plan.cells()), readable_count(limits.cells))});
-  }
-  if (study.horizon > limits.horizon) {
-    errors.push_back(
-        {"/horizon", fmt::format("a horizon of {} s (at most {} here); shorten it", study.horizon, limits.horizon)});
-  }
-  const std::uint64_t needed = demand_of(study).memory;
-  if (errors.empty() && needed > memory) {
-    errors.push_back(
-        {"/sampling/trials", fmt::format("the study needs about {} MiB of memory (at most {} here); ask for "
-                                         "fewer trials or retained trajectories",
-                                         needed >> 20U, memory >> 20U)});
-  }
-  return errors;
 }
 
 }  // namespace

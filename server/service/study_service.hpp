@@ -65,7 +65,8 @@ class StudyService {
   StudyService(const StudyService&) = delete;
   StudyService& operator=(const StudyService&) = delete;
 
-  /// Ends the runs once the blocks in flight are finished and kept, and waits for that; they go on at the next start.
+  /// Ends the runs once the blocks in flight are finished and kept, and waits for that, but for stopping_time at most:
+  /// then those are given up. They go on at the next start.
   /// submit() and remove() are refused from then on, readers are not. Wakes all who wait_for_change(). Idempotent.
   void stop();
 
@@ -112,7 +113,7 @@ class StudyService {
   /// One finished trial, as a page of one. @throws NoSuchTrial
   [[nodiscard]] TrialPage trial(const std::string& id, std::uint64_t index) const;
 
-  /// Computes a finished trial again. @throws NoSuchTrial; RunFailure where it does not end as it did
+  /// Computes a finished trial again. @throws NoSuchTrial; TakesTooLong; RunFailure where it does not end as it did
   [[nodiscard]] ReplayedTrial trajectory(const std::string& id, std::uint64_t index) const;
 
   /// The result file (schemas/result_file.md), which may be read as long as it is open, also when it is removed. Of a
@@ -124,9 +125,9 @@ class StudyService {
   /// Cancels a study that waits or runs: no further block is begun, the finished trials are kept, and it goes on when
   /// it is submitted again. Removes one that is over, with all its files. Holds nobody up who does not ask for the very
   /// study.
-  /// @return its state: cancelled, or succeeded where it was about to end anyway; still running where the blocks in
-  ///         flight take longer than cancelling_time, after which it is cancelled, also when the process ends before;
-  ///         the last state of a study removed
+  /// @return its state: cancelled, or succeeded where it was about to end anyway. The blocks in flight are finished, or
+  ///         given up after ending_time. Where even that takes longer than cancelling_time it is still running, and is
+  ///         cancelled in the end, also when the process ends before. Of a study removed, the last state
   struct Removal {
     StudyState state;
     bool removed{false};

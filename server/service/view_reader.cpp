@@ -1,11 +1,7 @@
-#include <fmt/format.h>
-
 #include <array>
 #include <future>
 #include <utility>
 
-#include "core/errors.hpp"
-#include "core/version.hpp"
 #include "report/summary.hpp"
 #include "service/study_reader.hpp"
 #include "service/study_service.hpp"
@@ -55,14 +51,7 @@ std::string StudyReader::trial_view(const StudyEntry& entry, std::uint64_t index
   const TrialRow& row = page.rows.front();
   const TrialParameters parameters = Plan(*entry.study).parameters_with(index, row.values);
   const Trajectory trajectory = replay_for_view(parameters, entry.study->integrator, within(replaying_time_));
-  if (!bears_out(trajectory.outcome, row.outcome)) {
-    throw RunFailure(
-        fmt::format("trial {} of study {} cannot be shown: its replay ends {} at {} s, and it is kept as {} "
-                    "at {} s (it was computed by engine {}, this is {}); look at it with the build that "
-                    "computed it",
-                    index, entry.id, name_of(trajectory.outcome.status), trajectory.outcome.end_time,
-                    name_of(row.outcome.status), row.outcome.end_time, entry.origin.engine_version, engine_version()));
-  }
+  require_same_end(entry, index, trajectory.outcome, row.outcome);
   return trial_view_json(steerstat::trial_view(*entry.study, index, parameters, trajectory));
 }
 

@@ -20,6 +20,7 @@ class ModelRefusal : public std::runtime_error {
   static constexpr std::string_view invalid_input = "InvalidInput";
   static constexpr std::string_view invalid_output = "InvalidOutput";
   static constexpr std::string_view unsupported = "UnsupportedFeature";
+  static constexpr std::string_view unavailable = "Unavailable";  ///< now; not the model's doing
 
  private:
   std::string type_;

@@ -26,7 +26,8 @@ Json parsed(std::string_view body) {
 
 Json config_of(const Json& request) {
   const Json config = request.value("config", Json::object());
-  if (config.is_null()) return Json::object();
+  // R writes an empty list so.
+  if (config.is_null() || (config.is_array() && config.empty())) return Json::object();
   if (!config.is_object()) throw ModelRefusal(ModelRefusal::invalid_input, "config: expected an object");
   return config;
 }
@@ -85,9 +86,13 @@ ModelReply Models::answer(std::string_view action, std::string_view body) const 
   try {
     return {200, result_of(action, parsed(body)).dump()};
   } catch (const ModelRefusal& refusal) {
-    const Json error{{"error", {{"type", refusal.type()}, {"message", refusal.what()}}}};
-    return {400, error.dump()};
+    return reply_of(refusal);
   }
+}
+
+ModelReply reply_of(const ModelRefusal& refusal, int status) {
+  const Json error{{"error", {{"type", refusal.type()}, {"message", refusal.what()}}}};
+  return {status, error.dump()};
 }
 
 }  // namespace steerstat

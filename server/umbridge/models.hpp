@@ -15,6 +15,9 @@ struct ModelReply {
   std::string json;  ///< without any key that the protocol does not know
 };
 
+/// The answer to a client whose question is refused.
+ModelReply reply_of(const ModelRefusal& refusal, int status = 400);
+
 /// The service's models behind the UM-Bridge protocol 1.0 [UM-Bridge], all but HTTP: `trial` and `study`. Thread-safe.
 class Models {
  public:

@@ -137,6 +137,20 @@ TEST_F(ApiCase, ATrajectoryEndsAsItsTrialDid) {
   EXPECT_EQ(replayed.at("trajectory").at("t").back(), trial.at("outcome").at("end_time"));
 }
 
+TEST_F(ApiCase, ATrialThatTakesTooLongToComputeAgainIsNotWaitedFor) {
+  service.reset();
+  limits.replaying_time = std::chrono::milliseconds(0);
+  begin();
+  reopen({});
+  const std::string study = finished();
+  for (const std::string what : {"/trajectory", "/view"}) {
+    const RawResponse response = get(study + "/trials/7" + what);
+    EXPECT_EQ(response.status, 503) << what;
+    EXPECT_FALSE(response.field("Retry-After").empty()) << what;
+    EXPECT_THAT(response.body, HasSubstr("takes longer")) << what;
+  }
+}
+
 TEST_F(ApiCase, WhatAClientHasIsNotSentAgain) {
   const std::string study = finished();
   for (const std::string target :

@@ -159,6 +159,54 @@ TEST_F(ApiCase, ModelsAnswerWithoutAContentType) {
   EXPECT_EQ(ordered_json_of(missing.body).at("error").at("type"), "ModelNotFound");
 }
 
+// What the protocol's clients send: MUQ and the C++ header as text or JSON, Python's requests with Accept and a
+// connection that is kept, R and Julia without a type; C++ leaves an empty config out or sends null, R may send an
+// empty list.
+TEST_F(ApiCase, ModelsAnswerEveryKindOfClient) {
+  RawClient client(port);
+  for (const std::string fields :
+       {"", "Content-Type: text/plain\r\n",
+        "Content-Type: application/json\r\nAccept: */*\r\nConnection: keep-alive\r\n",
+        "Content-Type: application/x-www-form-urlencoded\r\nAccept: application/json, text/*\r\n"}) {
+    for (const std::string config : {"", R"(, "config": {})", R"(, "config": null)", R"(, "config": [])"}) {
+      client.send(request("POST", "/InputSizes", fields, R"({"name": "trial")" + config + "}"));
+      const RawResponse sizes = client.receive();
+      EXPECT_EQ(sizes.status, 200) << fields << config;
+      EXPECT_EQ(sizes.body, R"({"inputSizes":[4]})");
+      EXPECT_EQ(sizes.field("Content-Length"), std::to_string(sizes.body.size())) << "none of them needs chunks";
+    }
+  }
+  client.send(request("GET", "/Info", "Accept: text/html\r\n"));
+  EXPECT_EQ(client.receive().body, R"({"protocolVersion":1.0,"models":["trial","study"]})")
+      << "1 is no double everywhere";
+}
+
+// All of them look for `error` in whatever is answered, and for nothing else.
+TEST_F(ApiCase, ModelsRefuseInTheProtocolsWordsAlsoWhenTheyAreBusyOrAskedForNonsense) {
+  const std::string question = R"({"name": "study", "input": [[0.4, 0.7]], "config": {"study": )";
+  ApiOptions options;
+  options.evaluations = 0;
+  reopen(std::move(options));
+  const RawResponse busy = post("/Evaluate", question + quick_spec(10) + "}}");
+  EXPECT_EQ(busy.status, 503);
+  EXPECT_EQ(busy.field("Retry-After"), "5");
+  EXPECT_EQ(ordered_json_of(busy.body).at("error").at("type"), "Unavailable") << busy.body;
+  reopen({});
+  for (const std::string nonsense : {"NaN", "Infinity", "1e999", "[]", "{}"}) {
+    const RawResponse refused = post("/Evaluate", R"({"name": "trial", "input": [[0, 0, 0, )" + nonsense + "]]}");
+    EXPECT_EQ(refused.status, 400) << nonsense;
+    EXPECT_EQ(ordered_json_of(refused.body).at("error").at("type"), "InvalidInput") << refused.body;
+  }
+  for (const std::string action : {"Gradient", "ApplyJacobian", "ApplyHessian"}) {
+    const RawResponse refused =
+        post("/" + action, R"({"name": "trial", "outWrt": 0, "inWrt": 0, "input": [[0, 0, 0, 0]]})");
+    EXPECT_EQ(refused.status, 400);
+    EXPECT_EQ(ordered_json_of(refused.body).at("error").at("type"), "UnsupportedFeature") << refused.body;
+  }
+  // Newer clients try whether memory can be shared, and do without where nobody answers.
+  EXPECT_EQ(post("/TestShMem", R"({"name": "trial", "tid": "1"})").status, 404);
+}
+
 TEST(SingleRange, IsOneOrNone) {
   EXPECT_EQ(single_range("bytes=0-0", 10), (ByteRange{0, 1}));
   EXPECT_EQ(single_range("bytes=9-", 10), (ByteRange{9, 1}));

@@ -68,6 +68,18 @@ TEST_F(UmBridge, ATrialThatDoesNotConvergeSettlesAtTheHorizon) {
   EXPECT_EQ(got[1], 12.5);
 }
 
+TEST_F(UmBridge, ATrialThatTakesTooLongIsNotWaitedFor) {
+  const TrialModel impatient(300.0, std::chrono::milliseconds(0));
+  const Json config = ordered_json_of(R"({"inputs": ["initial_state.q2_dot"]})");
+  try {
+    static_cast<void>(impatient.evaluate(std::vector{1e8}, config));
+    FAIL() << "it has ended";
+  } catch (const ModelRefusal& refusal) {
+    EXPECT_EQ(refusal.type(), ModelRefusal::invalid_output);
+    EXPECT_THAT(refusal.what(), HasSubstr("takes longer"));
+  }
+}
+
 TEST_F(UmBridge, TheModelIsLookedAtBeforeItsInput) {
   expect_refusal("Evaluate", R"({"name": "poisson", "input": 3})", "ModelNotFound", "\"poisson\"");
   expect_refusal("Evaluate", R"({"input": [[0]]})", "ModelNotFound", "null");
