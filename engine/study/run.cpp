@@ -14,7 +14,6 @@
 
 #include "core/elapsed.hpp"
 #include "study/block_queue.hpp"
-#include "study/block_stream.hpp"
 #include "study/finished_prefix.hpp"
 #include "study/for_each.hpp"
 #include "study/handover.hpp"
@@ -23,6 +22,7 @@
 #include "study/sketched_run.hpp"
 #include "study/trial_range.hpp"
 #include "study/watched.hpp"
+#include "study/worker_stream.hpp"
 
 namespace steerstat {
 namespace {
@@ -83,7 +83,7 @@ void work(const Study& study, const PlannedTrials& planned, const RunOptions& op
   const auto work_as = [&](std::size_t worker) {
     try {
       Turnstile::Turn turn(options.turns);
-      BlockStream stream(planned, blocks, outcomes, listeners, tallies[worker], turn, options.give_up);
+      WorkerStream stream(planned, blocks, outcomes, listeners, tallies[worker], turn, options.give_up);
       const auto runner =
           options.make_runner ? options.make_runner(study.integrator) : make_runner(study.integrator, options.simd);
       runner->run(stream);

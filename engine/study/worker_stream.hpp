@@ -34,10 +34,10 @@ struct Listeners {
 
 /// Feeds one worker's runner block after block, so that its lanes refill across blocks, and stores each outcome in the
 /// slot of its index. The slots of different trials are distinct objects: no two workers write the same one.
-class BlockStream final : public TrialStream {
+class WorkerStream final : public TrialStream {
  public:
-  BlockStream(const PlannedTrials& planned, BlockQueue& blocks, std::vector<TrialOutcome>& outcomes,
-              Listeners listeners, Tally& tally, Turnstile::Turn& turn, const std::stop_token& give_up)
+  WorkerStream(const PlannedTrials& planned, BlockQueue& blocks, std::vector<TrialOutcome>& outcomes,
+               Listeners listeners, Tally& tally, Turnstile::Turn& turn, const std::stop_token& give_up)
       : planned_(planned),
         blocks_(blocks),
         outcomes_(outcomes),
