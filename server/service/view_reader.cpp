@@ -1,7 +1,10 @@
+#include <fmt/format.h>
+
 #include <array>
 #include <future>
 #include <utility>
 
+#include "core/errors.hpp"
 #include "report/summary.hpp"
 #include "service/study_reader.hpp"
 #include "service/study_service.hpp"
