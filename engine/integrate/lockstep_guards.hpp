@@ -30,7 +30,6 @@ inline void note(Pack g0, Pack g1, Pack allowance, int i, Evidence& evidence) {
 /// The guard of align: sqrt(E^2 + V^2) - radius.
 struct AlignGuard {
   static constexpr int joint = 0;
-  static constexpr bool turns_back = false;
   double radius;
 
   [[nodiscard]] Evidence judge(const Samples& s, double slack, double width) const {
@@ -60,7 +59,6 @@ struct AlignGuard {
 /// A guard of align: ceiling - sign * (kp * position + kd * velocity).
 struct CeilingGuard {
   static constexpr int joint = 0;
-  static constexpr bool turns_back = true;
   double kp, kd;
   double sign;
   double ceiling;
@@ -86,7 +84,6 @@ struct CeilingGuard {
 /// A guard of drift: sign * position - bound, or sign * velocity - bound.
 struct DriftGuard {
   static constexpr int joint = 1;
-  static constexpr bool turns_back = false;
   bool of_velocity;
   double sign;
   double bound;
@@ -146,7 +143,7 @@ template <class Guard>
     double next = t - change;
     // Convergence is cubic: what is left after a change this small is 1e-8 of the part, times how curved it is,
     // squared.
-    const bool falls = !Guard::turns_back || (rate < 0.0 && std::abs(bent) <= rate * rate);
+    const bool falls = rate < 0.0 && std::abs(bent) <= rate * rate;
     if (falls && std::abs(change) <= 2e-3 * width) {
       out.t = std::clamp(next, low, high);
       return;

@@ -6,7 +6,6 @@ namespace steerstat::STEERSTAT_ISA {
 /// The guard of align on what is read: sqrt(E^2 + (V + read_V)^2) - radius.
 struct ReadAlignGuard {
   static constexpr int joint = 0;
-  static constexpr bool turns_back = false;
   double radius;
   double read_V;
 
