@@ -14,7 +14,8 @@ class RefreshTimer {
   using Clock = std::chrono::steady_clock;
 
   /// To be called by the thread that made it.
-  /// @return when it is to be made anew: readers of one study take a fifth of a core at most
+  /// @return when it is to be made anew: readers of one study take a fifth of a core at most, and as much again for
+  ///         each thread that helped
   [[nodiscard]] Clock::time_point due() const {
     return Clock::now() + std::max<Clock::duration>(shortest, 4 * (worked() - start_));
   }
