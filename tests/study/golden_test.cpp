@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(
                              R"("controller": {"realignment": "always", "drift": {"min_speed": 0.05}})",
                              0x5d980e1fb04e3b63U},
                       Pinned{"other_goal", R"("goal": {"q1": 0.3, "q2": 2.2}, "horizon": 120)", 0x31ae0ad40b30f190U},
-                      Pinned{"loose", R"("integrator": {"tolerance": 1e-6})", 0x428c84cb7591327eU},
+                      Pinned{"loose", R"("integrator": {"tolerance": 1e-6})", 0x170253d4c1fe5d8aU},
                       Pinned{"without_metrics", R"("metrics": false)", 0x243867b36f60c95cU},
                       Pinned{"imperfect",
                              R"(in plant: "coulomb1": 0.003, "coulomb2": 2e-5, "gravity_x": 1e-4},
