@@ -17,20 +17,20 @@
 namespace steerstat {
 namespace {
 
-constexpr std::uint64_t draws = 1U << 14U;
-const std::vector<std::string> names{"a", "b", "c", "d", "e"};
+constexpr std::uint64_t all_draws = 1U << 14U;
+const std::vector<std::string> five_names{"a", "b", "c", "d", "e"};
 // a and d, b alone, c and e: two groups of their own.
-const std::vector<PairCorrelation> pairs{{0, 3, 0.6}, {2, 4, -0.8}};
+const std::vector<PairCorrelation> correlated_pairs{{0, 3, 0.6}, {2, 4, -0.8}};
 
 std::shared_ptr<const Design> independent(const std::string& method, std::uint64_t seed = 1) {
-  if (method == "sobol") return std::make_shared<Sobol>(seed, names);
-  if (method == "latin_hypercube") return std::make_shared<LatinHypercube>(draws, seed, names);
-  return std::make_shared<MonteCarlo>(seed, names);
+  if (method == "sobol") return std::make_shared<Sobol>(seed, five_names);
+  if (method == "latin_hypercube") return std::make_shared<LatinHypercube>(all_draws, seed, five_names);
+  return std::make_shared<MonteCarlo>(seed, five_names);
 }
 
 std::vector<double> coordinates(const Design& design, std::size_t variable) {
-  std::vector<double> u(draws);
-  for (std::uint64_t draw = 0; draw < draws; ++draw) u[draw] = design.coordinate(draw, variable);
+  std::vector<double> u(all_draws);
+  for (std::uint64_t draw = 0; draw < all_draws; ++draw) u[draw] = design.coordinate(draw, variable);
   return u;
 }
 
@@ -61,13 +61,13 @@ std::vector<double> normals(std::vector<double> u) {
 class OfAnyDesign : public ::testing::TestWithParam<std::string> {
  protected:
   const std::shared_ptr<const Design> independent_ = independent(GetParam());
-  const CorrelatedDesign design_{independent_, *factorise_correlation(5, pairs)};
+  const CorrelatedDesign design_{independent_, *factorise_correlation(5, correlated_pairs)};
 };
 
 TEST_P(OfAnyDesign, CorrelationsOfTheNormalVariablesAreWithinTheirStandardErrors) {
-  const double n = draws;
+  const double n = all_draws;
   std::vector<std::vector<double>> z;
-  for (std::size_t variable = 0; variable < names.size(); ++variable) {
+  for (std::size_t variable = 0; variable < five_names.size(); ++variable) {
     z.push_back(normals(coordinates(design_, variable)));
   }
   for (std::size_t i = 0; i < z.size(); ++i) {
@@ -82,21 +82,21 @@ TEST_P(OfAnyDesign, RankCorrelationsAreThoseOfTheCopula) {
   // Of uniform variables, the correlation is that of the ranks: (6 / pi) asin(rho / 2) [Kruskal 1958]. Its standard
   // error is below that of independent ranks.
   const auto expected = [](double rho) { return 6.0 / std::numbers::pi * std::asin(0.5 * rho); };
-  const double bound = 4.5 / std::sqrt(static_cast<double>(draws));
+  const double bound = 4.5 / std::sqrt(static_cast<double>(all_draws));
   EXPECT_NEAR(correlation(coordinates(design_, 0), coordinates(design_, 3)), expected(0.6), bound);
   EXPECT_NEAR(correlation(coordinates(design_, 2), coordinates(design_, 4)), expected(-0.8), bound);
 }
 
 TEST_P(OfAnyDesign, EveryCoordinateStaysUniform) {
-  for (std::size_t variable = 0; variable < names.size(); ++variable) {
+  for (std::size_t variable = 0; variable < five_names.size(); ++variable) {
     auto u = coordinates(design_, variable);
     std::sort(u.begin(), u.end());
     double distance = 0.0;
     for (std::size_t i = 0; i < u.size(); ++i) {
-      const double middle = (static_cast<double>(i) + 0.5) / static_cast<double>(draws);
+      const double middle = (static_cast<double>(i) + 0.5) / static_cast<double>(all_draws);
       distance = std::max(distance, std::abs(u[i] - middle));
     }
-    EXPECT_LT(distance, 1.95 / std::sqrt(static_cast<double>(draws)));  // exceeded once in a thousand samples
+    EXPECT_LT(distance, 1.95 / std::sqrt(static_cast<double>(all_draws)));  // exceeded once in a thousand samples
     EXPECT_GT(u.front(), 0.0);
     EXPECT_LT(u.back(), 1.0);
   }
@@ -112,10 +112,10 @@ TEST_P(OfAnyDesign, VariablesCorrelatedWithNoneBeforeThemKeepTheirBits) {
 }
 
 TEST_P(OfAnyDesign, PlacesTheSameBitsThatItsCoordinatesHave) {
-  std::vector<double> point(names.size());
+  std::vector<double> point(five_names.size());
   for (std::uint64_t draw = 0; draw < 100; ++draw) {
     design_.place(draw, point);
-    for (std::size_t variable = 0; variable < names.size(); ++variable) {
+    for (std::size_t variable = 0; variable < five_names.size(); ++variable) {
       EXPECT_EQ(point[variable], design_.coordinate(draw, variable));
     }
   }
@@ -142,7 +142,7 @@ TEST(CorrelatedDesign, StaysStrictlyInsideWhereExtremesAddUp) {
 }
 
 TEST(CorrelatedDesign, KeepsTheDrawsItHasAlwaysGiven) {
-  const CorrelatedDesign design(independent("monte_carlo"), *factorise_correlation(5, pairs));
+  const CorrelatedDesign design(independent("monte_carlo"), *factorise_correlation(5, correlated_pairs));
   EXPECT_EQ(design.coordinate(0, 3), 0x1.83c8f5a3b2bdep-1);
   EXPECT_EQ(design.coordinate(1, 4), 0x1.23a889f23d93bp-1);
 }

@@ -14,7 +14,7 @@
 namespace steerstat {
 namespace {
 
-constexpr double level = 0.95;
+constexpr double cluster_level = 0.95;
 
 std::vector<ClusterSum> singles(std::uint64_t successes, std::uint64_t trials) {
   std::vector<ClusterSum> clusters(trials, {1, 0.0});
@@ -24,47 +24,48 @@ std::vector<ClusterSum> singles(std::uint64_t successes, std::uint64_t trials) {
 
 TEST(EffectiveTrials, OfClustersOfOneAreTheTrials) {
   // But for the divisor n - 1 of the variance.
-  EXPECT_NEAR(effective_trials(singles(30, 100), level), 99.0, 1e-9);
-  EXPECT_EQ(effective_trials(singles(0, 100), level), 100.0);
-  EXPECT_EQ(effective_trials(singles(100, 100), level), 100.0);
+  EXPECT_NEAR(effective_trials(singles(30, 100), cluster_level), 99.0, 1e-9);
+  EXPECT_EQ(effective_trials(singles(0, 100), cluster_level), 100.0);
+  EXPECT_EQ(effective_trials(singles(100, 100), cluster_level), 100.0);
 }
 
 TEST(EffectiveTrials, OfClustersThatAgreeAreTheClusters) {
   std::vector<ClusterSum> clusters;
   for (int i = 0; i < 50; ++i) clusters.push_back({8, i < 20 ? 8.0 : 0.0});
   // Less a little for the variance being estimated from 50: by the 97.5 % quantiles of t with 399 and 49 degrees.
-  EXPECT_NEAR(effective_trials(clusters, level), 49.0 * std::pow(1.965927 / 2.009575, 2), 1e-4);
+  EXPECT_NEAR(effective_trials(clusters, cluster_level), 49.0 * std::pow(1.965927 / 2.009575, 2), 1e-4);
   for (ClusterSum& cluster : clusters) cluster.total = 8.0;
-  EXPECT_EQ(effective_trials(clusters, level), 50.0) << "nothing shows that their trials do not all say the same";
+  EXPECT_EQ(effective_trials(clusters, cluster_level), 50.0)
+      << "nothing shows that their trials do not all say the same";
   for (ClusterSum& cluster : clusters) cluster.total = 0.0;
-  EXPECT_EQ(effective_trials(clusters, level), 50.0);
+  EXPECT_EQ(effective_trials(clusters, cluster_level), 50.0);
 }
 
 TEST(EffectiveTrials, AreNeverMoreThanTheTrialsAndFewForFewClusters) {
   // Each cluster succeeds in exactly half of its trials: no variance at all.
-  EXPECT_NEAR(effective_trials(std::vector<ClusterSum>(200, {2, 1.0}), level), 400.0, 8.0);
-  EXPECT_LT(effective_trials(std::vector<ClusterSum>(2, {2, 1.0}), level), 1.0 + 1e-12);
-  EXPECT_EQ(effective_trials(std::vector<ClusterSum>{{10, 7.0}}, level), 1.0);
-  EXPECT_EQ(effective_trials({}, level), 0.0);
-  EXPECT_EQ(effective_trials(std::vector<ClusterSum>(3, {0, 0.0}), level), 0.0);
+  EXPECT_NEAR(effective_trials(std::vector<ClusterSum>(200, {2, 1.0}), cluster_level), 400.0, 8.0);
+  EXPECT_LT(effective_trials(std::vector<ClusterSum>(2, {2, 1.0}), cluster_level), 1.0 + 1e-12);
+  EXPECT_EQ(effective_trials(std::vector<ClusterSum>{{10, 7.0}}, cluster_level), 1.0);
+  EXPECT_EQ(effective_trials({}, cluster_level), 0.0);
+  EXPECT_EQ(effective_trials(std::vector<ClusterSum>(3, {0, 0.0}), cluster_level), 0.0);
 }
 
 TEST(ClusteredProportion, NeedsATrial) {
-  EXPECT_THROW(clustered_proportion(ProportionMethod::wilson, {}, level), std::invalid_argument);
+  EXPECT_THROW(clustered_proportion(ProportionMethod::wilson, {}, cluster_level), std::invalid_argument);
   EXPECT_THROW(clustered_proportion(ProportionMethod::wilson, singles(1, 3), 1.0), std::invalid_argument);
 }
 
 TEST(ClusteredProportion, OfConfidenceSequencesCountsClusters) {
   std::vector<ClusterSum> clusters;
   for (int i = 0; i < 50; ++i) clusters.push_back({4, i < 20 ? 4.0 : 0.0});
-  const ProportionInterval whole = confidence_sequence(20, 50, level);
-  const ProportionInterval ours = clustered_proportion(ProportionMethod::confidence_sequence, clusters, level);
+  const ProportionInterval whole = confidence_sequence(20, 50, cluster_level);
+  const ProportionInterval ours = clustered_proportion(ProportionMethod::confidence_sequence, clusters, cluster_level);
   EXPECT_EQ(ours.low, whole.low);
   EXPECT_EQ(ours.high, whole.high);
   clusters[20].total = 1.0;  // 20.25 of 50: rounded outwards
-  const ProportionInterval wider = clustered_proportion(ProportionMethod::confidence_sequence, clusters, level);
+  const ProportionInterval wider = clustered_proportion(ProportionMethod::confidence_sequence, clusters, cluster_level);
   EXPECT_EQ(wider.low, whole.low);
-  EXPECT_EQ(wider.high, confidence_sequence(21, 50, level).high);
+  EXPECT_EQ(wider.high, confidence_sequence(21, 50, cluster_level).high);
 }
 
 /// ClusteredDraws of which each has a chance of its own, shared by its trials in every cell.
@@ -108,7 +109,8 @@ std::vector<ClusterSum> at_or_below(const ClusteredDraws& draws, double x) {
   return clusters;
 }
 
-/// The claim that matters: the level holds where trials share draws, where intervals of independent trials miss it.
+/// The claim that matters: the level holds where trials share draws, where intervals of independent trials miss
+/// it.
 TEST(ClusteredIntervals, CoverWhatTheyClaimWhereIntervalsOfIndependentTrialsDoNot) {
   constexpr std::size_t cells = 6;
   std::mt19937_64 generator(5);
@@ -131,19 +133,21 @@ TEST(ClusteredIntervals, CoverWhatTheyClaimWhereIntervalsOfIndependentTrialsDoNo
     const auto holds = [](const SampleInterval& interval, double truth) {
       return (!interval.low || *interval.low <= truth) && (!interval.high || truth <= *interval.high) ? 1 : 0;
     };
-    rates += covers(clustered_proportion(ProportionMethod::wilson, draws.successes, level), rate);
-    sequences += covers(clustered_proportion(ProportionMethod::confidence_sequence, draws.successes, level), rate);
-    naive_rates += covers(wilson_interval(draws.converged, 80 * cells, level), rate);
-    means += holds(clustered_mean(draws.values, level), mean);
+    rates += covers(clustered_proportion(ProportionMethod::wilson, draws.successes, cluster_level), rate);
+    sequences +=
+        covers(clustered_proportion(ProportionMethod::confidence_sequence, draws.successes, cluster_level), rate);
+    naive_rates += covers(wilson_interval(draws.converged, 80 * cells, cluster_level), rate);
+    means += holds(clustered_mean(draws.values, cluster_level), mean);
     std::vector<double> sorted;
     for (const auto& values : draws.by_draw) sorted.insert(sorted.end(), values.begin(), values.end());
     std::sort(sorted.begin(), sorted.end());
     const SampleStatistics sample = *describe(sorted);
-    naive_means += holds(mean_interval(sample.mean, sample.std, sample.count, level), mean);
+    naive_means += holds(mean_interval(sample.mean, sample.std, sample.count, cluster_level), mean);
     const auto clusters = at_or_below(draws, quantile(sorted, 0.9));
-    quantiles += holds(between(sorted, clustered_quantile_ranks(clusters, 0.9, level)), p90);
-    rank_sequences += holds(between(sorted, clustered_confidence_sequence_ranks(clusters, cells, 0.9, level)), p90);
-    naive_quantiles += holds(quantile_interval(sorted, 0.9, level), p90);
+    quantiles += holds(between(sorted, clustered_quantile_ranks(clusters, 0.9, cluster_level)), p90);
+    rank_sequences +=
+        holds(between(sorted, clustered_confidence_sequence_ranks(clusters, cells, 0.9, cluster_level)), p90);
+    naive_quantiles += holds(quantile_interval(sorted, 0.9, cluster_level), p90);
   }
   const double error = 3.0 * std::sqrt(0.05 * 0.95 / studies);
   const auto share = [](int covered) { return static_cast<double>(covered) / studies; };
@@ -163,8 +167,8 @@ TEST(ClusteredIntervals, CoverWhatTheyClaimWhereIntervalsOfIndependentTrialsDoNo
 TEST(ClusteredConfidenceSequenceRanks, OfClustersOfOneAreThoseOfTrials) {
   for (const std::uint64_t n : {50U, 400U}) {
     for (const double p : {0.05, 0.5, 0.95}) {
-      EXPECT_EQ(clustered_confidence_sequence_ranks(singles(0, n), 1, p, level),
-                confidence_sequence_ranks(n, p, level));
+      EXPECT_EQ(clustered_confidence_sequence_ranks(singles(0, n), 1, p, cluster_level),
+                confidence_sequence_ranks(n, p, cluster_level));
     }
   }
 }
@@ -173,11 +177,11 @@ TEST(ClusteredMean, IsThatOfTheClustersWhereTheyHaveOneSize) {
   const std::vector<ClusterSum> clusters{{2, 6.0}, {2, 10.0}, {2, 2.0}, {2, 8.0}};
   const std::vector<double> means{3.0, 5.0, 1.0, 4.0};
   const SampleStatistics sample = *describe(means);
-  const SampleInterval expected = mean_interval(sample.mean, sample.std, 4, level);
-  EXPECT_NEAR(*clustered_mean(clusters, level).low, *expected.low, 1e-12);
-  EXPECT_NEAR(*clustered_mean(clusters, level).high, *expected.high, 1e-12);
-  EXPECT_EQ(clustered_mean(std::vector<ClusterSum>{{5, 3.0}}, level), SampleInterval{});
-  EXPECT_EQ(clustered_mean(std::vector<ClusterSum>{{5, 3.0}, {0, 0.0}}, level), SampleInterval{});
+  const SampleInterval expected = mean_interval(sample.mean, sample.std, 4, cluster_level);
+  EXPECT_NEAR(*clustered_mean(clusters, cluster_level).low, *expected.low, 1e-12);
+  EXPECT_NEAR(*clustered_mean(clusters, cluster_level).high, *expected.high, 1e-12);
+  EXPECT_EQ(clustered_mean(std::vector<ClusterSum>{{5, 3.0}}, cluster_level), SampleInterval{});
+  EXPECT_EQ(clustered_mean(std::vector<ClusterSum>{{5, 3.0}, {0, 0.0}}, cluster_level), SampleInterval{});
 }
 
 TEST(Stretched, RanksAreScaledAwayFromTheQuantile) {

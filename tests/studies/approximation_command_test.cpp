@@ -9,12 +9,12 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr const char* spec = R"({"kind": "approximation", "name": "small", "sampling": {"trials": 20},
+constexpr const char* small_spec = R"({"kind": "approximation", "name": "small", "sampling": {"trials": 20},
   "cycle": {"amplitude": {"sweep": [25, 50]}, "period": {"sweep": [1, 2]}}})";
 
 TEST(ApproximationCommand, RunsPrintsTablesAndWritesItsSummary) {
   const Scratch scratch;
-  const std::string file = scratch.file("spec.json", spec);
+  const std::string file = scratch.file("spec.json", small_spec);
   const Ending text = steerstat({"run", file, "--summary", scratch / "summary.json"});
   EXPECT_EQ(text.exit_code, 0) << text.err;
   EXPECT_THAT(text.out, HasSubstr("Fitted order"));
@@ -27,7 +27,7 @@ TEST(ApproximationCommand, RunsPrintsTablesAndWritesItsSummary) {
 
 TEST(ApproximationCommand, RefusesAResultFileAndBadSpecsWithTwo) {
   const Scratch scratch;
-  const std::string file = scratch.file("spec.json", spec);
+  const std::string file = scratch.file("spec.json", small_spec);
   const Ending kept = steerstat({"run", file, "-o", scratch / "result.h5"});
   EXPECT_EQ(kept.exit_code, 2);
   EXPECT_THAT(kept.err, HasSubstr("-o: an approximation study keeps no trials"));

@@ -43,10 +43,10 @@ void expect_same_results(const StudyResult& a, const StudyResult& b) {
   EXPECT_EQ(a.trajectories.size(), b.trajectories.size());
 }
 
-constexpr const char* sweep = R"(, "controller": {"contraction": {"eta1": {"sweep": [0.3, 0.5, 0.7]}}})";
+constexpr const char* swept_ratio = R"(, "controller": {"contraction": {"eta1": {"sweep": [0.3, 0.5, 0.7]}}})";
 
 TEST(SketchedRun, CountsAndSumsWhatAllRowsSay) {
-  for (const char* more : {"", sweep}) {
+  for (const char* more : {"", swept_ratio}) {
     const StudyResult rows = run(stored_study("all", 700, more));
     const StudyResult result = run(stored_study("summary", 700, more));
     EXPECT_TRUE(result.complete);
@@ -88,7 +88,7 @@ TEST(SketchedRun, KeepsTheRowsThatItsStoreSaysToTheBit) {
 }
 
 TEST(SketchedRun, IsTheSameOnOneAndThreeThreadsInPiecesAndExtended) {
-  const Study study = stored_study("failed", 2000, sweep);
+  const Study study = stored_study("failed", 2000, swept_ratio);
   const StudyResult whole = run(study);
   expect_same_results(run(study, 3), whole);
   FinishedTrials pieces;
@@ -97,7 +97,7 @@ TEST(SketchedRun, IsTheSameOnOneAndThreeThreadsInPiecesAndExtended) {
   }
   EXPECT_EQ(pieces.count(), 5700U);
   expect_same_results(run(study, 2, std::move(pieces)), whole);
-  expect_same_results(run(study, 1, finished(run(stored_study("failed", 500, sweep)))), whole);
+  expect_same_results(run(study, 1, finished(run(stored_study("failed", 500, swept_ratio)))), whole);
 }
 
 TEST(SketchedRun, StopsWhereARunThatKeepsAllRowsDoes) {
@@ -120,7 +120,7 @@ TEST(SketchedRun, StopsWhereARunThatKeepsAllRowsDoes) {
 }
 
 TEST(SketchedRun, AnInterruptKeepsWholeDrawsAndTheRestRunsLater) {
-  const Study study = stored_study("summary", 100000, sweep);
+  const Study study = stored_study("summary", 100000, swept_ratio);
   std::stop_source interrupted;
   RunOptions options;
   options.threads = 1;
@@ -134,7 +134,7 @@ TEST(SketchedRun, AnInterruptKeepsWholeDrawsAndTheRestRunsLater) {
   EXPECT_LT(part.finished(), 300000U);
   EXPECT_EQ(part.finished() % 3, 0U);
   EXPECT_TRUE(part.audit.trials.empty());
-  const Study small = stored_study("summary", 1000, sweep);
+  const Study small = stored_study("summary", 1000, swept_ratio);
   options.stop = {};
   options.on_progress = {};
   const StudyResult first = run_range(small, {0, 300}, options);
