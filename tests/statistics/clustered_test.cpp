@@ -68,7 +68,7 @@ TEST(ClusteredProportion, OfConfidenceSequencesCountsClusters) {
   EXPECT_EQ(wider.high, confidence_sequence(21, 50, cluster_level).high);
 }
 
-/// ClusteredDraws of which each has a chance of its own, shared by its trials in every cell.
+/// Draws of which each has a chance of its own, shared by its trials in every cell.
 struct ClusteredDraws {
   std::vector<ClusterSum> successes;
   std::vector<ClusterSum> values;
