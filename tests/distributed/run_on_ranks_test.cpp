@@ -114,7 +114,7 @@ TEST_F(RunOnRanks, OfAStudyThatKeepsNoRowsGivesTheSketchOfOneProcess) {
 
 TEST_F(RunOnRanks, GivesTheSameBitsHoweverMuchARankIsGivenAtATime) {
   for (const char* store : {"all", "summary"}) {
-    const Study study = study_of(6000, std::string(R"(, "store": ")") + store + "\"");
+    const Study study = study_of(1000, std::string(R"(, "store": ")") + store + "\"");
     const StudyResult alone = run_study(study, {});
     for (const double seconds : {0.001, 3600.0}) {
       seconds_a_range_ = seconds;
