@@ -1,5 +1,6 @@
 #include "trial/cvode_runner.hpp"
 
+#include "trial/check_in_interval.hpp"
 #include "trial/course.hpp"
 
 namespace steerstat {
@@ -10,13 +11,12 @@ class CheckingIn final : public StepObserver {
  public:
   explicit CheckingIn(TrialStream& stream) : stream_(stream) {}
   void step(double, double, const DenseOutput&) override {
-    constexpr unsigned steps_between = 1024;  // a few milliseconds
-    if (++steps_ % steps_between == 0) stream_.check_in();
+    if (interval_.ends_with_step()) stream_.check_in();
   }
 
  private:
   TrialStream& stream_;
-  unsigned steps_{0};
+  CheckInInterval interval_{};
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <bit>
 #include <optional>
 
+#include "trial/check_in_interval.hpp"
 #include "trial/course.hpp"
 
 namespace steerstat {
@@ -53,8 +54,7 @@ bool LockstepRunner::carry_on(TrialStream& stream, int lane, double t, const Sta
 }
 
 void LockstepRunner::run(TrialStream& stream) {
-  constexpr unsigned steps_between = 1024;  // a few milliseconds
-  unsigned steps = 0;
+  CheckInInterval interval;
   std::uint64_t busy = 0;
   for (int lane = 0; lane < engine_->lanes(); ++lane) {
     if (take_next(stream, lane))
@@ -63,7 +63,7 @@ void LockstepRunner::run(TrialStream& stream) {
       engine_->vacate(lane);
   }
   while (busy != 0) {
-    if (++steps % steps_between == 0) stream.check_in();
+    if (interval.ends_with_step()) stream.check_in();
     for (std::uint64_t ended = engine_->step(); ended != 0; ended &= ended - 1) {
       const int lane = std::countr_zero(ended);
       Seat& seat = seats_[static_cast<std::size_t>(lane)];

@@ -7,6 +7,7 @@
 #include "core/errors.hpp"
 #include "integrate/cvode_integrator.hpp"
 #include "integrate/lockstep_integrator.hpp"
+#include "trial/check_in_interval.hpp"
 #include "trial/course.hpp"
 
 namespace steerstat {
@@ -34,8 +35,7 @@ class PhaseSampler final : public StepObserver {
 
   /// Takes the multiples of the interval in [from, to), so that a phase's end is taken once, as its end.
   void step(double, double to, const DenseOutput& output) override {
-    constexpr unsigned steps_between = 1024;  // a few milliseconds
-    if (++steps_ % steps_between == 0 && check_in_) check_in_();
+    if (check_in_interval_.ends_with_step() && check_in_) check_in_();
     for (; next_ * interval_ < to; next_ += 1.0) {
       if (next_ * interval_ > start_) take(next_ * interval_, output.at(next_ * interval_));
     }
@@ -49,7 +49,7 @@ class PhaseSampler final : public StepObserver {
   double next_;  // the next sample, in intervals
   std::vector<TrajectorySample>& samples_;
   const std::function<void()>& check_in_;
-  unsigned steps_{0};
+  CheckInInterval check_in_interval_{};
 };
 
 template <class Integrator>
