@@ -3,6 +3,13 @@
 #include "study/plan.hpp"
 
 namespace steerstat {
+namespace {
+
+std::uint64_t trials_left_by(const Study& study, const std::optional<StopReport>& report) {
+  return report && report->reason ? report->trials : Plan(study).trials();
+}
+
+}  // namespace
 
 PrecisionWatch watch_of(const Study& study) {
   return {study.stop.value(), study.sampling.trials, Plan(study).cells()};
@@ -18,8 +25,7 @@ std::optional<StopReport> watched(const Study& study, const TrialTable& trials) 
 }
 
 std::uint64_t trials_due(const Study& study, const TrialTable& trials) {
-  const std::optional<StopReport> report = watched(study, trials);
-  return report && report->reason ? report->trials : Plan(study).trials();
+  return trials_left_by(study, watched(study, trials));
 }
 
 std::optional<StopReport> watched(const Study& study, const TrialSketch& sketch) {
@@ -34,8 +40,7 @@ std::optional<StopReport> watched(const Study& study, const StudyResult& result)
 }
 
 std::uint64_t trials_due(const Study& study, const StudyResult& result) {
-  const std::optional<StopReport> report = watched(study, result);
-  return report && report->reason ? report->trials : Plan(study).trials();
+  return trials_left_by(study, watched(study, result));
 }
 
 }  // namespace steerstat
