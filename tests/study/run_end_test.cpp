@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <stop_token>
@@ -77,15 +78,20 @@ INSTANTIATE_TEST_SUITE_P(Engines, InterruptedRunOnAnEngine,
                            return std::string(IntegratorChoice::method_names[static_cast<std::size_t>(one.param)]);
                          });
 
+/// What is left of an echo's run when a stop is requested as such a trial ends.
+StudyResult run_stopped(const Study& study, unsigned threads, const std::function<bool(std::uint64_t)>& stops_at) {
+  std::stop_source stop;
+  RunOptions options = echo_options(threads, [&](std::uint64_t index) {
+    if (stops_at(index)) stop.request_stop();
+  });
+  options.stop = stop.get_token();
+  return run_study(study, options);
+}
+
 TEST(RunStudy, AStopKeepsExactlyTheBlocksBegun) {
   const Study study = drawn_study(1000);
   // Trial 0 is finished while the group of seven it came with is all that has been claimed: one block.
-  std::stop_source stop;
-  RunOptions options = echo_options(1, [&](std::uint64_t index) {
-    if (index == 0) stop.request_stop();
-  });
-  options.stop = stop.get_token();
-  const StudyResult result = run_study(study, options);
+  const StudyResult result = run_stopped(study, 1, [](std::uint64_t index) { return index == 0; });
   EXPECT_FALSE(result.complete);
   EXPECT_EQ(result.trials.index.size(), block_size(study));
   expect_kept_prefix(study, result.trials);
@@ -93,12 +99,8 @@ TEST(RunStudy, AStopKeepsExactlyTheBlocksBegun) {
 
 TEST(RunStudy, AStopOnThreeThreadsKeepsWholeBlocks) {
   const Study study = drawn_study(10000);
-  std::stop_source stop;
-  RunOptions options = echo_options(3, [&](std::uint64_t index) {
-    if (index >= 1000) stop.request_stop();  // whoever is first there: nobody runs away meanwhile
-  });
-  options.stop = stop.get_token();
-  const StudyResult result = run_study(study, options);
+  // Whoever is first there stops all: nobody runs away meanwhile.
+  const StudyResult result = run_stopped(study, 3, [](std::uint64_t index) { return index >= 1000; });
   EXPECT_FALSE(result.complete);
   EXPECT_GT(result.trials.index.size(), 1000U);
   EXPECT_LT(result.trials.index.size(), 10000U);
@@ -118,13 +120,7 @@ TEST(RunStudy, AStopBeforeTheFirstTrialKeepsNone) {
 }
 
 TEST(RunStudy, AStopDuringTheLastBlockComesTooLateToCutTheRun) {
-  const Study study = drawn_study(40);
-  std::stop_source stop;
-  RunOptions options = echo_options(1, [&](std::uint64_t index) {
-    if (index == 39) stop.request_stop();
-  });
-  options.stop = stop.get_token();
-  const StudyResult result = run_study(study, options);
+  const StudyResult result = run_stopped(drawn_study(40), 1, [](std::uint64_t index) { return index == 39; });
   EXPECT_TRUE(result.complete);
   EXPECT_EQ(result.trials.index.size(), 40U);
 }
