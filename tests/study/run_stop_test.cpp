@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "study/plan.hpp"
@@ -28,11 +31,13 @@ Study stopping_study(const std::string& until, const std::string& more = "") {
 
 const char* const rate_within_5_percent = R"({"metric": "success_rate", "half_width": 0.05})";
 
-/// Cheap stand-in for an engine: four in five draws converge, at a time that they tell. Where there is a delay, trials
-/// take it now and then, so that blocks finish out of order.
+/// Cheap stand-in for an engine: four in five draws converge, at a time that they tell.
 class DrawRunner final : public TrialRunner {
  public:
-  explicit DrawRunner(std::chrono::microseconds delay) : delay_(delay) {}
+  /// Called before a trial ends.
+  using OnTrial = std::function<void(std::uint64_t index, TrialStream& stream)>;
+
+  explicit DrawRunner(OnTrial on_trial) : on_trial_(std::move(on_trial)) {}
 
   static TrialOutcome outcome_of(const TrialParameters& parameters) {
     TrialOutcome outcome;
@@ -46,20 +51,25 @@ class DrawRunner final : public TrialRunner {
     std::uint64_t index = 0;
     TrialParameters parameters;
     while (stream.next(index, parameters)) {
-      if (delay_.count() > 0 && (index * 2654435761U) % 97 < 3) std::this_thread::sleep_for(delay_);
+      if (on_trial_) on_trial_(index, stream);
       stream.finished(index, outcome_of(parameters));
     }
   }
 
  private:
-  std::chrono::microseconds delay_;
+  OnTrial on_trial_;
 };
 
-RunOptions drawn(unsigned threads, std::chrono::microseconds delay = {}) {
+RunOptions drawn(unsigned threads, const DrawRunner::OnTrial& on_trial = {}) {
   RunOptions options;
   options.threads = threads;
-  options.make_runner = [delay](const IntegratorChoice&) { return std::make_unique<DrawRunner>(delay); };
+  options.make_runner = [on_trial](const IntegratorChoice&) { return std::make_unique<DrawRunner>(on_trial); };
   return options;
+}
+
+/// Delays a trial now and then, so that blocks finish out of order.
+void dawdle(std::uint64_t index, TrialStream&) {
+  if ((index * 2654435761U) % 97 < 3) std::this_thread::sleep_for(std::chrono::microseconds(300));
 }
 
 /// Where the study stops when its trials are looked at one after the other.
@@ -88,7 +98,7 @@ TEST(RunStudyThatStops, KeepsTheTrialsUpToTheLookWhateverTheThreadsAndTheirTimin
   ASSERT_EQ(expected.trials % 50, 0U);
   for (const unsigned threads : {1U, 2U, 3U}) {
     expect_exactly(expected.trials, run_study(study, drawn(threads)), study);
-    expect_exactly(expected.trials, run_study(study, drawn(threads, std::chrono::microseconds(300))), study);
+    expect_exactly(expected.trials, run_study(study, drawn(threads, dawdle)), study);
   }
 }
 
@@ -137,26 +147,10 @@ TEST(RunStudyThatStops, IsCompleteWhereTheInterruptionCameAfterTheLastLookThatMa
   const std::uint64_t expected = expected_stop(study).trials;
   ASSERT_EQ(expected, 50U);
   std::stop_source stop;
-  RunOptions options;
-  options.threads = 1;
+  RunOptions options = drawn(1, [&](std::uint64_t index, TrialStream&) {
+    if (index == 49) stop.request_stop();  // in the block that ends the look
+  });
   options.stop = stop.get_token();
-  // The stop is requested in the block that ends the look.
-  options.make_runner = [&](const IntegratorChoice&) {
-    struct Stopper final : TrialRunner {
-      explicit Stopper(std::stop_source& source) : stop(source) {}
-      using TrialRunner::run;
-      void run(TrialStream& stream) override {
-        std::uint64_t index = 0;
-        TrialParameters parameters;
-        while (stream.next(index, parameters)) {
-          if (index == 49) stop.request_stop();
-          stream.finished(index, DrawRunner::outcome_of(parameters));
-        }
-      }
-      std::stop_source& stop;
-    };
-    return std::make_unique<Stopper>(stop);
-  };
   expect_exactly(expected, run_study(study, options), study);
 }
 
@@ -190,27 +184,12 @@ TEST(RunStudyGivenUp, LeavesTheTrialsInFlightAndHandsOverWhatHadFinished) {
     }
     std::uint64_t trials{0};
   } kept;
-  RunOptions options;
-  options.threads = 1;
+  RunOptions options = drawn(1, [&](std::uint64_t index, TrialStream& stream) {
+    if (index == endless) give_up.request_stop();
+    while (index == endless) stream.check_in();
+  });
   options.give_up = give_up.get_token();
   options.sink = &kept;
-  options.make_runner = [&](const IntegratorChoice&) {
-    struct Endless final : TrialRunner {
-      explicit Endless(std::stop_source& source) : give_up(source) {}
-      using TrialRunner::run;
-      void run(TrialStream& stream) override {
-        std::uint64_t index = 0;
-        TrialParameters parameters;
-        while (stream.next(index, parameters)) {
-          if (index == endless) give_up.request_stop();
-          while (index == endless) stream.check_in();
-          stream.finished(index, DrawRunner::outcome_of(parameters));
-        }
-      }
-      std::stop_source& give_up;
-    };
-    return std::make_unique<Endless>(give_up);
-  };
   EXPECT_THROW(run_study(study, options), RunGivenUp);
   EXPECT_EQ(kept.trials, endless / block_size(study) * block_size(study));
 }
