@@ -47,16 +47,21 @@ class LaunchedStudies : public ServiceCase {
     return std::move(text).str();
   }
 
+  /// Submits a study and waits for its result, which is to be that of an undisturbed run. @return its id
+  std::string expect_result(const std::string& spec) {
+    const std::string id = service->submit(spec).state.id;
+    const StudyState state = wait_for_end(id);
+    EXPECT_EQ(state.status, StudyStatus::succeeded) << state.failure.value_or("");
+    EXPECT_EQ(state.completed, state.requested);
+    expect_undisturbed(id, spec);
+    return id;
+  }
+
   /// Runs a study, and one of half as many trials again, which is to run those alone.
   void expect_extension(const Words& prefix) {
     begin_telling(prefix);
     wait_for_end(service->submit(quick_spec(2000)).state.id);
-    const std::string spec = quick_spec(3000);
-    const std::string id = service->submit(spec).state.id;
-    const StudyState state = wait_for_end(id);
-    EXPECT_EQ(state.status, StudyStatus::succeeded) << state.failure.value_or("");
-    EXPECT_EQ(state.completed, 3000U);
-    expect_undisturbed(id, spec);
+    const std::string id = expect_result(quick_spec(3000));
     EXPECT_THAT(said(), HasSubstr("resuming after 2,000 of 3,000 trials"));
     EXPECT_THAT(files_called(id, "earlier-"), ::testing::IsEmpty());
     EXPECT_THAT(files_called(id, "launched"), ::testing::IsEmpty());
@@ -74,10 +79,7 @@ class LaunchedStudies : public ServiceCase {
 
   /// Runs a study that continues one which was begun, and expects that it does not run all of its trials.
   void expect_continuation(const std::string& spec) {
-    const std::string id = service->submit(spec).state.id;
-    const StudyState state = wait_for_end(id);
-    EXPECT_EQ(state.status, StudyStatus::succeeded) << state.failure.value_or("");
-    expect_undisturbed(id, spec);
+    expect_result(spec);
     const std::string text = said();
     const std::size_t resuming = text.rfind("resuming after");
     ASSERT_NE(resuming, std::string::npos) << text;
@@ -98,12 +100,7 @@ class LaunchedStudies : public ServiceCase {
 
 TEST_F(LaunchedStudies, RunAsProgramsToTheSameBits) {
   begin_with({"env", "--"});
-  const std::string spec = quick_spec(3000);
-  const std::string id = service->submit(spec).state.id;
-  const StudyState state = wait_for_end(id);
-  EXPECT_EQ(state.status, StudyStatus::succeeded) << state.failure.value_or("");
-  EXPECT_EQ(state.completed, 3000U);
-  expect_undisturbed(id, spec);
+  const std::string id = expect_result(quick_spec(3000));
   EXPECT_THAT(files_called(id, "launched"), ::testing::IsEmpty());
   EXPECT_TRUE(service->summary(id).complete);
 }
@@ -114,11 +111,7 @@ const Words on_two_ranks{"env", "PATH=/usr/bin:/bin", MPIRUN_PROGRAM, "--allow-r
 
 TEST_F(LaunchedStudies, RunOnTheRanksOfAnMpiJob) {
   begin_with(on_two_ranks);
-  const std::string spec = quick_spec(3000);
-  const std::string id = service->submit(spec).state.id;
-  const StudyState state = wait_for_end(id);
-  EXPECT_EQ(state.status, StudyStatus::succeeded) << state.failure.value_or("");
-  expect_undisturbed(id, spec);
+  expect_result(quick_spec(3000));
 }
 
 TEST_F(LaunchedStudies, OnRanksExtendAStudyWithoutRunningItsTrialsAgain) {
