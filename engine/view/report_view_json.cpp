@@ -45,8 +45,8 @@ std::optional<std::string> replayed(const ViewedStudy& viewed, const Plan& plan,
 
 Report report_of(const ViewedStudy& viewed, const Summary& summary, const ReportOptions& options) {
   const Plan plan(viewed.study);
-  const StudyView view = study_view(viewed, summary, {options.created, most_maps});
-  std::string study = study_view_json(view);
+  const StudyView view = study_view(viewed, {options.created, most_maps});
+  std::string study = study_view_json(view, summary);
   study.pop_back();
   using view_json::Json;
   Report report;

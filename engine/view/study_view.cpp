@@ -234,12 +234,11 @@ ShownRows shown_rows(const Study& study) {
   return ShownRows::none;
 }
 
-StudyView study_view(const ViewedStudy& viewed, const Summary& summary, const StudyViewOptions& options) {
+StudyView study_view(const ViewedStudy& viewed, const StudyViewOptions& options) {
   const Trials trials(viewed);
   StudyView view;
   view.created = options.created;
   view.spec = canonical_spec(viewed.study);
-  view.summary = summary;
   view.rows = shown_rows(viewed.study);
   view.used = viewed.result.sketch ? viewed.result.finished() : trials.rows.size();
   for (std::size_t i = 0; i < trials.plan.varying().size(); ++i) view.inputs.push_back(varying_view(trials, i));

@@ -44,14 +44,13 @@ inline constexpr std::array<std::string_view, 4> shown_rows_names{"all", "sought
 
 ShownRows shown_rows(const Study& study);
 
-/// What the page shows of a study (schemas/view.schema.json, `study`). Where the rows are not all, what counts trials
-/// as they come is left empty: narrowing, distributions, cycles, marginals, sensitivity and maps.
+/// What the page shows of a study beside its summary (schemas/view.schema.json, `study`). Where the rows are not all,
+/// what counts trials as they come is left empty: narrowing, distributions, cycles, marginals, sensitivity and maps.
 struct StudyView {
   ShownRows rows{ShownRows::all};
   std::optional<std::string> created;  ///< UTC, ISO 8601
   std::string spec;                    ///< canonical
-  Summary summary;
-  std::uint64_t used{0};  ///< finished trials that count, whether their rows are there or not
+  std::uint64_t used{0};               ///< finished trials that count, whether their rows are there or not
   Narrowing narrowing;
   std::vector<EmpiricalDistribution> distributions;
   struct CycleCounts {
@@ -102,10 +101,9 @@ struct StudyViewOptions {
   std::size_t most_maps{0};
 };
 
-/// @param summary  of the study's finished trials; it goes into the view as it is
-StudyView study_view(const ViewedStudy& viewed, const Summary& summary, const StudyViewOptions& options = {});
+StudyView study_view(const ViewedStudy& viewed, const StudyViewOptions& options = {});
 
-/// The view as JSON (schemas/view.schema.json), ending in a newline.
-std::string study_view_json(const StudyView& view);
+/// The view as JSON (schemas/view.schema.json), ending in a newline. @param summary  of the study's finished trials
+std::string study_view_json(const StudyView& view, const Summary& summary);
 
 }  // namespace steerstat

@@ -77,20 +77,19 @@ Json cells_json(const std::vector<Summary::Cell>& cells) {
           {"settling_time", std::move(settling_time)}};
 }
 
-Json sweeps_json(const StudyView& view) {
+Json sweeps_json(const StudyView& view, const Summary& summary) {
   if (view.sweeps.empty()) return nullptr;
   Json axes = Json::array();
   for (const StudyView::SweptAxis& axis : view.sweeps) {
     axes.push_back({{"input", axis.input}, {"unit", axis.unit}, {"values", axis.values}});
   }
-  return {
-      {"axes", std::move(axes)}, {"level", view.summary.intervals.level}, {"cells", cells_json(view.summary.cells)}};
+  return {{"axes", std::move(axes)}, {"level", summary.intervals.level}, {"cells", cells_json(summary.cells)}};
 }
 
-Json sensitivity_of(const StudyView& view) {
+Json sensitivity_of(const StudyView& view, const Summary& summary) {
   SensitivityReport report;
   report.given_data = view.given_data;
-  report.sobol = view.summary.sensitivity;
+  report.sobol = summary.sensitivity;
   const Json json = Json::parse(sensitivity_json(report));
   return {{"of", view.sensitivity_of}, {"given_data", json["given_data"]}, {"sobol_indices", json["sobol_indices"]}};
 }
@@ -121,7 +120,7 @@ Json list_json(const List& list, const Encode& encode) {
 
 }  // namespace
 
-std::string study_view_json(const StudyView& view) {
+std::string study_view_json(const StudyView& view, const Summary& summary) {
   const StudyView::CycleCounts& cycles = view.cycles;
   Json json;
   json["view"] = "study";
@@ -129,17 +128,17 @@ std::string study_view_json(const StudyView& view) {
   json["created"] = view.created ? Json(*view.created) : Json(nullptr);
   json["spec"] = view.spec;
   json["rows"] = shown_rows_names[static_cast<std::size_t>(view.rows)];
-  json["trials"] = {{"requested", view.summary.requested}, {"finished", view.summary.completed}, {"used", view.used}};
-  json["summary"] = summary_of(view.summary);
+  json["trials"] = {{"requested", summary.requested}, {"finished", summary.completed}, {"used", view.used}};
+  json["summary"] = summary_of(summary);
   json["narrowing"] = narrowing_json(view.narrowing);
   json["distributions"] = list_json(view.distributions, view_json::distribution);
   json["cycles"] = {
       {"from", cycles.from}, {"to", cycles.to}, {"converged", cycles.converged}, {"others", cycles.others}};
   json["inputs"] = list_json(view.inputs, input_json);
   json["marginals"] = list_json(
-      view.marginals, [&](const Marginal& marginal) { return marginal_json(marginal, view.summary.intervals.level); });
-  json["sweeps"] = sweeps_json(view);
-  json["sensitivity"] = view.rows == ShownRows::all ? sensitivity_of(view) : Json(nullptr);
+      view.marginals, [&](const Marginal& marginal) { return marginal_json(marginal, summary.intervals.level); });
+  json["sweeps"] = sweeps_json(view, summary);
+  json["sensitivity"] = view.rows == ShownRows::all ? sensitivity_of(view, summary) : Json(nullptr);
   json["sample"] = sample_json(view.sample);
   json["failed"] = failed_json(view.failed);
   json["maps"] = list_json(view.maps, view_json::success_map);

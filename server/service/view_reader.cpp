@@ -35,9 +35,8 @@ StudyViews::Text StudyReader::study_view(const StudyEntry& entry) {
     // The summary takes as long as all the rest: it is made beside it.
     auto summary = std::async(std::launch::async, [&] { return summarise(*entry.study, kept->result); });
     const auto parameters = drawn_parameters(Plan(*entry.study), kept->result.trials);
-    StudyView view = steerstat::study_view({*entry.study, kept->result, parameters}, {}, {state.created});
-    view.summary = summary.get();
-    return study_view_json(view);
+    const StudyView view = steerstat::study_view({*entry.study, kept->result, parameters}, {state.created});
+    return study_view_json(view, summary.get());
   });
 }
 

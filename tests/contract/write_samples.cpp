@@ -49,14 +49,14 @@ void write_views(const std::filesystem::path& directory, const Study& swept, con
   testing_report::Finished parts{swept, interrupted, {}};
   testing_report::store_parameters(parts);
   const ViewedStudy viewed{parts.study, parts.result, parts.parameters};
-  write_text("swept_view.json", study_view_json(study_view(viewed, summarise(parts.study, parts.result))));
+  write_text("swept_view.json", study_view_json(study_view(viewed), summarise(parts.study, parts.result)));
   write_text("map_view.json", success_map_json(success_map(viewed, "controller.contraction.eta1", "plant.f2")));
 
   const auto sought = testing_report::finished(R"({"plant": {"f2": {"uniform": [0, 0.05]}},
       "sampling": {"method": "importance", "trials": 90,
                    "proposal": {"components": [{"inputs": {"plant.f2": {"shift": 2}}}]}}})");
-  write_text("sought_view.json", study_view_json(study_view({sought.study, sought.result, sought.parameters},
-                                                            summarise(sought.study, sought.result))));
+  write_text("sought_view.json", study_view_json(study_view({sought.study, sought.result, sought.parameters}),
+                                                 summarise(sought.study, sought.result)));
 
   const auto a = testing_report::finished(testing_report::drawn_spec(70), 1);
   const auto b = testing_report::finished(testing_report::drawn_spec(70, R"(, "horizon": 100)"), 2);
