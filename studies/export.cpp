@@ -48,11 +48,11 @@ void add_export(CLI::App& program, ExitCode& exit_code) {
       print(text);
     } else {
       write_text(output, text);
-      tell(fmt::format("wrote {} trials to {}", readable_count(stored.result.trials.index.size()), output.string()));
+      tell(fmt::format("wrote {} to {}", counted(stored.result.trials.index.size(), "trial"), output.string()));
     }
     if (stored.study.store != Store::all) {
-      tell(fmt::format("of {} trials these are the ones whose rows were kept: {}those audited and those retained",
-                       readable_count(stored.result.finished()),
+      tell(fmt::format("of {} these are the ones whose rows were kept: {}those audited and those retained",
+                       counted(stored.result.finished(), "trial"),
                        stored.study.store == Store::failed ? "those that failed, " : ""));
     }
     exit_code = ExitCode::done;

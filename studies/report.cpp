@@ -49,8 +49,8 @@ ExitCode run(const ReportRequest& request) {
                     "another machine's CVODE",
                     report.without_replay, stored.engine_version));
   }
-  tell(fmt::format("wrote the report on {} trials, {} of which can be opened, to {} ({:.1f} MB)",
-                   readable_count(summary.completed), report.trials.size(), output.string(),
+  tell(fmt::format("wrote the report on {}, {} of which can be opened, to {} ({:.1f} MB)",
+                   counted(summary.completed, "trial"), report.trials.size(), output.string(),
                    static_cast<double>(page.size()) / 1e6));
   return ExitCode::done;
 }

@@ -25,8 +25,7 @@ std::string describe(const Study& study) {
   text += fmt::format("  id          {}\n", study_id(study));
   text += fmt::format("  trials      {}", readable_count(plan.trials()));
   if (plan.cells() > 1)
-    text +=
-        fmt::format(" ({} cells of {})", readable_count(plan.cells()), readable_count(plan.trials() / plan.cells()));
+    text += fmt::format(" ({} of {})", counted(plan.cells(), "cell"), readable_count(plan.trials() / plan.cells()));
   text += fmt::format("\n  sampling    {}", sampling_method_names[static_cast<std::size_t>(study.sampling.method)]);
   if (draws(study.sampling.method)) text += fmt::format(", seed {}", study.sampling.seed);
   text += fmt::format("\n  varying     {}\n",
@@ -39,8 +38,8 @@ std::string describe(const Study& study) {
 
 std::string describe(const ApproximationStudy& study) {
   const CyclePlan plan(study);
-  return fmt::format("{}: a valid approximation study\n  cycles      {} ({} cells of {})\n  sampling    seed {}\n",
-                     printable(study.name), readable_count(plan.cells() * plan.draws()), readable_count(plan.cells()),
+  return fmt::format("{}: a valid approximation study\n  cycles      {} ({} of {})\n  sampling    seed {}\n",
+                     printable(study.name), readable_count(plan.cells() * plan.draws()), counted(plan.cells(), "cell"),
                      readable_count(plan.draws()), study.seed);
 }
 

@@ -119,13 +119,12 @@ std::string orders_text(const ApproximationSummary& summary, bool colour) {
 
 std::string approximation_text(const ApproximationSummary& summary, bool colour) {
   const std::size_t cells = summary.cells.size();
-  std::string text =
-      styled(printable(summary.name), bold, colour) + '\n' +
-      styled(fmt::format("error of the nilpotent approximation in {} cycles ({} draws in {} cell{}) · "
-                         "seed {} · K {:.4g} /m · engine {}\n",
-                         readable_count(cells * summary.draws), readable_count(summary.draws), readable_count(cells),
-                         cells == 1 ? "" : "s", summary.seed, summary.coupling, summary.engine_version),
-             faint, colour);
+  std::string text = styled(printable(summary.name), bold, colour) + '\n' +
+                     styled(fmt::format("error of the nilpotent approximation in {} ({} in {}) · "
+                                        "seed {} · K {:.4g} /m · engine {}\n",
+                                        counted(cells * summary.draws, "cycle"), counted(summary.draws, "draw"),
+                                        counted(cells, "cell"), summary.seed, summary.coupling, summary.engine_version),
+                            faint, colour);
   for (const Shown& what : shown) {
     text += '\n';
     text += sweeps_amplitude_and_period_alone(summary.cells.front()) ? square_text(summary.cells, what, colour)

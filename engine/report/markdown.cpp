@@ -124,18 +124,16 @@ std::string summary_markdown(const Summary& summary) {
   }
   text += gates_table(summary);
   if (summary.rare_failures) {
-    text += fmt::format("Failure rate {}, {} trials\n\n", failure_rate_text(*summary.rare_failures),
-                        readable_count(summary.all.completed));
+    text += fmt::format("Failure rate {}, {}\n\n", failure_rate_text(*summary.rare_failures),
+                        counted(summary.all.completed, "trial"));
   } else {
-    text +=
-        fmt::format("Success rate {}, {} trials\n\n", rate_text(summary.all), readable_count(summary.all.completed));
+    text += fmt::format("Success rate {}, {}\n\n", rate_text(summary.all), counted(summary.all.completed, "trial"));
     text += outcomes_table(summary.all);
   }
   text += metrics_table(summary.all) + cells_table(summary);
   text += fmt::format("Seed {}, id {}, engine {}", summary.seed, code(summary.id), summary.engine_version);
   if (summary.wall_s > 0.0) {
-    text += fmt::format(", {} on {} thread{}", readable_duration(summary.wall_s), summary.threads,
-                        summary.threads == 1 ? "" : "s");
+    text += fmt::format(", {} on {}", readable_duration(summary.wall_s), counted(summary.threads, "thread"));
   }
   return text + "\n";
 }

@@ -68,7 +68,7 @@ std::string given_data_output_text(const GivenDataSensitivity& given, const Give
                    {given.exact ? "" : interval_text(index), style},
                    {bar(index.low, index.high), style}});
   }
-  return table.text(colour) + styled(fmt::format("  of {} trials\n", readable_count(output.trials)), faint, colour);
+  return table.text(colour) + styled(fmt::format("  of {}\n", counted(output.trials, "trial")), faint, colour);
 }
 
 std::string sobol_output_text(const SobolSensitivity& sobol, const SobolSensitivity::Output& output, bool colour) {
@@ -92,8 +92,7 @@ std::string sobol_output_text(const SobolSensitivity& sobol, const SobolSensitiv
   const std::uint64_t rows = sobol.independent_trials / 2;
   const std::string which =
       output.rows < rows ? fmt::format(" of {}: those with it in every trial", readable_count(rows)) : "";
-  return table.text(colour) +
-         styled(fmt::format("  of {} rows{}\n", readable_count(output.rows), which), faint, colour);
+  return table.text(colour) + styled(fmt::format("  of {}{}\n", counted(output.rows, "row"), which), faint, colour);
 }
 
 }  // namespace

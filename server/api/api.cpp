@@ -11,15 +11,12 @@
 #include "api/reply.hpp"
 #include "api/routes.hpp"
 #include "report/pairing.hpp"
+#include "report/readable.hpp"
 
 namespace steerstat {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-std::string counted(std::size_t count, const char* what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
 
 /// The media type that a route answers with; "" of the page's files and of UM-Bridge, whose clients may say what they
 /// like.

@@ -36,6 +36,7 @@ TEST(SummaryMarkdown, TellsTheRateTheOutcomesAndTheMetrics) {
   EXPECT_THAT(text, HasSubstr("| `diverged` | 0 | – |"));
   EXPECT_THAT(text, HasSubstr("| `settling_time` | `s` | 700 | 3505 |"));
   EXPECT_THAT(text, Not(HasSubstr("position_contraction_worst"))) << "without data";
+  EXPECT_THAT(summary_markdown(made_up_summary({1, 0, 0, 0, 0})), HasSubstr(", 1 trial\n"));
 }
 
 TEST(SummaryMarkdown, OfNoTrialSaysSo) {
