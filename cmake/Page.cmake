@@ -1,6 +1,7 @@
-# The page that `GET /` and `steerstat report` show, built from TypeScript by npm. A program without it does all the rest
-# and says what it lacks.
-set(STEERSTAT_PAGE AUTO CACHE STRING "Build the page: ON, OFF, or AUTO: where Node 18 or later and npm are, and it builds")
+# The page that `GET /` and `steerstat report` show, built from TypeScript by npm. A program without it does all the
+# rest and says what it lacks.
+set(STEERSTAT_PAGE AUTO CACHE STRING
+  "Build the page: ON, OFF, or AUTO: where Node 18 or later and npm are, and it builds")
 set_property(CACHE STEERSTAT_PAGE PROPERTY STRINGS AUTO ON OFF)
 
 # Whether npm and a Node that can build the page are here; if not, `reason` says what is missing.
@@ -13,7 +14,8 @@ function(steerstat_find_node found reason)
     set(${reason} "there was no npm where it was built" PARENT_SCOPE)
     return()
   endif()
-  execute_process(COMMAND ${STEERSTAT_NODE} --version OUTPUT_VARIABLE version OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+  execute_process(COMMAND ${STEERSTAT_NODE} --version
+    OUTPUT_VARIABLE version OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
   string(REGEX REPLACE "^v" "" version "${version}")
   if(NOT version VERSION_GREATER_EQUAL 18)
     set(${reason} "Node was ${version} where it was built, and the page takes 18 or later" PARENT_SCOPE)

@@ -21,10 +21,10 @@ namespace steerstat {
 namespace {
 
 constexpr const char* merge_epilogue =
-    R"(Puts together what `run SPEC --shard I/N` has written for every I from 1 to N, in any order. The result is the same as
-that of one run of the whole study, byte for byte in every dataset: a "stop" in the spec is heeded here, trajectories are
-retained here and the audit is made here. Of its attributes, wall_s is the sum of the shards', threads the most and simd
-the least of any.
+    R"(Puts together what `run SPEC --shard I/N` has written for every I from 1 to N, in any order. The result is the same
+as that of one run of the whole study, byte for byte in every dataset: a "stop" in the spec is heeded here, trajectories
+are retained here and the audit is made here. Of its attributes, wall_s is the sum of the shards', threads the most and
+simd the least of any.
 
 Shards of another study, another engine version or another N, a shard that is named twice, one that is missing and one
 that is unfinished are refused, with their names. So the shards must be all there, but for those beyond the point where

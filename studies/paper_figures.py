@@ -157,7 +157,8 @@ def success_map(trials, directory, bins=48, steps=16):
                                      antialiased=False))
     axis.set_xlim(low[0], high[0])
     axis.set_ylim(low[1], high[1])
-    axis.set_xticks([-math.pi, -math.pi / 2, 0, math.pi / 4, math.pi / 2, math.pi], ["−π", "−π/2", "0", "π/4", "π/2", "π"])
+    axis.set_xticks([-math.pi, -math.pi / 2, 0, math.pi / 4, math.pi / 2, math.pi],
+                    ["−π", "−π/2", "0", "π/4", "π/2", "π"])
     axis.axvline(math.pi / 4, color=ORANGE, linestyle=(0, (5, 3)), linewidth=1.0)
     axis.set_xlabel("q₂ at the start [rad]; the goal is π/4")
     axis.set_ylabel("q̇₂ at the start [rad/s]")
@@ -185,7 +186,8 @@ def main(arguments):
     course_figure(nominal, commands, directory, "figure-5", "Fig. 5  Acceleration and force on the first joint")
     course_figure(friction, positions, directory, "figure-6",
                   "Fig. 6  Joint positions and their references (dashed), viscous friction at both joints")
-    course_figure(friction, velocities, directory, "figure-7", "Fig. 7  Joint velocities, viscous friction at both joints")
+    course_figure(friction, velocities, directory, "figure-7",
+                  "Fig. 7  Joint velocities, viscous friction at both joints")
     success_map(columns(data / "basin.csv"), directory)
 
 

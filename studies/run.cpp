@@ -37,8 +37,8 @@ error. Without -o the trials themselves are not kept.
 After the last trial some are computed again with SUNDIALS at a hundredth of the tolerance, and the summary says how
 many agree: 16, or as many as the spec's "audit" asks for. The outcomes are the same bits with every --simd.
 
-Where the spec has gates, or with --baseline, the verdicts decide the exit code: 1 where one failed, else 3 where one was
-inconclusive, else 0. Failed and inconclusive gates cost no output.
+Where the spec has gates, or with --baseline, the verdicts decide the exit code: 1 where one failed, else 3 where one
+was inconclusive, else 0. Failed and inconclusive gates cost no output.
 
 The first interrupt (Ctrl-C, SIGTERM) finishes the trials in flight, writes what is done with "complete" false and
 exits 130; a second one ends at once. Until the result is in place, finished trials are kept in the directory FILE.parts

@@ -3,8 +3,8 @@
 
 Usage: session.py STEERSTAT OUTPUT.json
 
-The output is {"openapi", "schemas": {name: schema}, "exchanges": [{"method", "path", "status", "type", "headers", "body"}]}, bodies of
-JSON as values, others as text.
+The output is {"openapi", "schemas": {name: schema}, "exchanges": [{"method", "path", "status", "type", "headers",
+"body"}]}, bodies of JSON as values, others as text.
 """
 
 import json
@@ -46,10 +46,10 @@ def main(program, output):
         long = f"/v1/studies/{ask('POST', '/v1/studies', LONG)[2]['id']}"
         for path in ("/v1/studies", "/v1/studies?limit=1", "/v1/studies?limit=x", "/v1/studies?cursor=x"):
             ask("GET", path)
-        for path in ("", "/summary", "/spec", "/trials", "/trials?status=converged&limit=3", "/trials?cell=1", "/trials?cell=x",
-                     "/trials/0", "/trials/119", "/trials/120", "/trials/0/trajectory", "/trials/120/trajectory",
-                     "/view", "/view/map?x=plant.m1&y=plant.f2", "/view/map?x=plant.m1&y=plant.m2", "/view/map?x=plant.m1",
-                     "/trials/3/view", "/trials/120/view",
+        for path in ("", "/summary", "/spec", "/trials", "/trials?status=converged&limit=3", "/trials?cell=1",
+                     "/trials?cell=x", "/trials/0", "/trials/119", "/trials/120", "/trials/0/trajectory",
+                     "/trials/120/trajectory", "/view", "/view/map?x=plant.m1&y=plant.f2",
+                     "/view/map?x=plant.m1&y=plant.m2", "/view/map?x=plant.m1", "/trials/3/view", "/trials/120/view",
                      "/results.h5", "/events"):
             tag = ask("GET", study + path)[1]["ETag"]
             if tag:
@@ -75,7 +75,8 @@ def main(program, output):
         ask("DELETE", long)
         ask("DELETE", long)
         trial, nothing = {"name": "trial", "config": {}}, {"name": "none"}
-        for action in ("ModelInfo", "InputSizes", "OutputSizes", "Evaluate", "Gradient", "ApplyJacobian", "ApplyHessian"):
+        for action in ("ModelInfo", "InputSizes", "OutputSizes", "Evaluate", "Gradient", "ApplyJacobian",
+                       "ApplyHessian"):
             for question in ({**trial, "input": [[0, 0, 0, 0]]}, {**trial, "input": [[0]]}, nothing, b"["):
                 ask("POST", f"/{action}", question, {"Content-Type": "text/plain"})
         for path in ("/Info", "/page.css", "/page.js", "/metrics", "/", "/v1/schemas/summary", "/v1/schemas/none"):

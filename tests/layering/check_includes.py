@@ -29,7 +29,8 @@ ROOMS = {
 # What stands on the engine may include all of it.
 PROGRAMS = {"server": set(ROOMS), "studies": set(ROOMS) | {"server"}}
 
-# Third-party headers that belong to few places: (name, pattern of the header, rule in words, pattern of the files that may).
+# Third-party headers that belong to few places: (name, pattern of the header, rule in words, pattern of the files that
+# may).
 LIBRARIES = [
     ("TBB", r"(oneapi/)?tbb(/|\.h)", "only in study/run.*", r"engine/study/run\.\w+"),
     ("HDF5", r"(hdf5|H5)\w*\.h", "only in store/", r"engine/store/.*"),

@@ -15,7 +15,10 @@ for object in "$@"; do
     echo "$shared"
     exit 1
   fi
-  nm --demangle --defined-only "$object" | grep -q "steerstat::$set::make_kernel" || { echo "$object: no kernel"; exit 1; }
+  if ! nm --demangle --defined-only "$object" | grep -q "steerstat::$set::make_kernel"; then
+    echo "$object: no kernel"
+    exit 1
+  fi
 done
 [ -n "$checked" ] || { echo "no kernel was checked"; exit 1; }
 echo "checked:$checked"

@@ -21,8 +21,8 @@ namespace {
 
 // The paper's cliff: trials fail where friction on the passive joint exceeds about 0.0247.
 std::string cliff(const std::string& sampling, const std::string& more = "") {
-  return R"({"plant": {"f2": {"uniform": [0, 0.0249]}, "m1": {"lognormal": {"median": 1, "sigma": 0.001}}}, "metrics": false,
-             "audit": {"trials": 0}, "sampling": )" +
+  return R"({"plant": {"f2": {"uniform": [0, 0.0249]}, "m1": {"lognormal": {"median": 1, "sigma": 0.001}}},
+             "metrics": false, "audit": {"trials": 0}, "sampling": )" +
          sampling + more + "}";
 }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Kills `steerstat serve` at random moments while studies come in over HTTP and run, starts it again each time, and holds
-what is then there against what clients were told.
+"""Kills `steerstat serve` at random moments while studies come in over HTTP and run, starts it again each time, and
+holds what is then there against what clients were told.
 
 Usage: serve_kill_test.py STEERSTAT
 
@@ -126,7 +126,8 @@ class Round:
             subprocess.run([self.program, "run", self.data / "alone.json", "-o", alone, "--no-progress"], check=True,
                            capture_output=True)
             result = self.data / "studies" / study / "results.h5"
-            check(self.completed.get(study) == spec["sampling"]["trials"], f"{study} has {self.completed.get(study)} trials")
+            completed = self.completed.get(study)
+            check(completed == spec["sampling"]["trials"], f"{study} has {completed} trials")
             check(datasets_of(result) == datasets_of(alone), f"trials of {study} were lost or changed")
 
 

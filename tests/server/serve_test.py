@@ -111,7 +111,8 @@ class Serve(unittest.TestCase):
                     received += piece
             head, _, events = received.partition(b"\r\n\r\n")
             first, *fields = head.decode().split("\r\n")
-            note_answer("GET", f"{study}/events", int(first.split()[1]), [field.split(": ", 1) for field in fields], events)
+            fields = [field.split(": ", 1) for field in fields]
+            note_answer("GET", f"{study}/events", int(first.split()[1]), fields, events)
 
     def test_while_slow_clients_drip_and_trials_run_it_answers(self):
         with served(PROGRAM, self.data) as service:

@@ -38,8 +38,8 @@ class Served:
 
     def __init__(self, program, data, *options, on_start=lambda process: None):
         """on_start gets the process before it is ready."""
-        self.process = subprocess.Popen([program, "serve", "--port", "0", "--data", str(data), "--threads", "2", *options],
-                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        command = [program, "serve", "--port", "0", "--data", str(data), "--threads", "2", *options]
+        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         on_start(self.process)
         line = self.process.stdout.readline()
         match = re.fullmatch(r"steerstat serves (http://\S+:(\d+))/ \(studies in .*\)\n", line)

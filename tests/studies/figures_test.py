@@ -37,7 +37,8 @@ class Figures(unittest.TestCase):
                 self.assertRegex(texts, r"\[(s|rad|N m s/rad)\]")
 
     def test_that_the_readme_shows_are_there(self):
-        shown = re.findall(r"!\[[^\]]+\]\((studies/figures/[^)]+)\)", (SOURCE / "README.md").read_text(encoding="utf-8"))
+        readme = (SOURCE / "README.md").read_text(encoding="utf-8")
+        shown = re.findall(r"!\[[^\]]+\]\((studies/figures/[^)]+)\)", readme)
         self.assertGreaterEqual(len(shown), 3)
         for path in shown:
             self.assertTrue((SOURCE / path).is_file(), path)

@@ -74,7 +74,8 @@ def main():
         for name in STUDIES:
             verdicts = verdicts_of(results, name)
             expect((results / f"{name}.h5").stat().st_size > 0, f"{name} has no result file")
-            expect(f"## nightly-{name.replace('_', '-')}: " in markdown, f"{name} is not in the job summary\n{markdown}")
+            title = f"## nightly-{name.replace('_', '-')}: "
+            expect(title in markdown, f"{name} is not in the job summary\n{markdown}")
             baseline = [gate for gate in verdicts if gate.startswith("success_rate drop < ")]
             expect(len(baseline) == 1, f"{name} is not held against its baseline: {verdicts}")
             rate = [gate for gate in verdicts if gate.startswith("success_rate ci_low")]

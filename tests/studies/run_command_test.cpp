@@ -16,8 +16,8 @@ using ::testing::HasSubstr;
 using Json = nlohmann::json;
 
 const char* const perturbed = R"({"name": "perturbed",
-    "plant": {"m1": {"uniform": [0.8, 1.2]}, "f2": {"uniform": [0, 0.05]}}, "initial_state": {"q1": {"uniform": [-1, 1]}},
-    "integrator": {"method": "cvode"}, "horizon": 90, "sampling": {"trials": 40, "seed": 7}})";
+    "plant": {"m1": {"uniform": [0.8, 1.2]}, "f2": {"uniform": [0, 0.05]}},
+    "initial_state": {"q1": {"uniform": [-1, 1]}}, "integrator": {"method": "cvode"}, "horizon": 90, "sampling": {"trials": 40, "seed": 7}})";
 
 void expect_same_rows(const StoredStudy& a, const StoredStudy& b, std::size_t rows) {
   ASSERT_GE(a.result.trials.index.size(), rows);

@@ -71,11 +71,11 @@ TEST(Gates, LeaveTheIdentityOfAStudyWithoutThemAsItWas) {
 TEST(Population, IsOfThePlantTheStartTheGoalTheHorizonAndWhatCountsAsSuccess) {
   const auto population = [](const char* spec) { return population_sha256(decode_study(spec, {})); };
   const std::string plain = population("{}");
-  for (
-      const char* same :
-      {R"({"name": "other", "sampling": {"trials": 50, "seed": 9}})", R"({"controller": {"alignment": {"kd": 1}}})",
-       R"({"integrator": {"method": "cvode"}, "audit": {"trials": 0}, "retain": {"trajectories": {"first": 1}}, "metrics": false})",
-       R"({"gates": [{"metric": "success_rate", "expr": "ci_low > 0.5"}], "baseline": {"level": 0.01}})"}) {
+  for (const char* same :
+       {R"({"name": "other", "sampling": {"trials": 50, "seed": 9}})", R"({"controller": {"alignment": {"kd": 1}}})",
+        R"({"integrator": {"method": "cvode"}, "audit": {"trials": 0}, "retain": {"trajectories": {"first": 1}},
+           "metrics": false})",
+        R"({"gates": [{"metric": "success_rate", "expr": "ci_low > 0.5"}], "baseline": {"level": 0.01}})"}) {
     EXPECT_EQ(population(same), plain) << same;
   }
   for (const char* other :
