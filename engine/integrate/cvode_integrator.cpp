@@ -1,10 +1,5 @@
 #include "integrate/cvode_integrator.hpp"
 
-#include <cvode/cvode.h>
-#include <nvector/nvector_serial.h>
-#include <sundials/sundials_context.h>
-#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,50 +8,20 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <type_traits>
 
 #include "core/errors.hpp"
+#include "integrate/cvode_objects.hpp"
 #include "integrate/exertion_meter.hpp"
 #include "integrate/step_polynomial.hpp"
 
 namespace steerstat {
 namespace {
 
-constexpr sunindextype state_size = 4;
 constexpr double guard_precision = 1e-10;  // [s] crossings closer than this are one
 constexpr double finest = 1e-15;           // relative error that doubles still tell apart
 constexpr double coarsest = 1e3;           // how much a stalled method's tolerances are loosened, at most
 constexpr long start_steps = 50;           // CVODE starts at order 1, with steps far shorter than those to come
 constexpr long most_steps = 10'000'000;    // in one phase; the pace of a step a microsecond makes more of them a hang
-
-/// An N_Vector of a state, and its end.
-struct VectorDeleter {
-  void operator()(N_Vector v) const { N_VDestroy(v); }
-};
-using Vector = std::unique_ptr<std::remove_pointer_t<N_Vector>, VectorDeleter>;
-
-struct NonlinearSolverDeleter {
-  void operator()(SUNNonlinearSolver solver) const { SUNNonlinSolFree(solver); }
-};
-using NonlinearSolver = std::unique_ptr<std::remove_pointer_t<SUNNonlinearSolver>, NonlinearSolverDeleter>;
-
-struct CvodeDeleter {
-  void operator()(void* memory) const { CVodeFree(&memory); }
-};
-using Cvode = std::unique_ptr<void, CvodeDeleter>;
-
-State<double> state_of(N_Vector v) {
-  const realtype* y = N_VGetArrayPointer(v);
-  return {y[0], y[1], y[2], y[3]};
-}
-
-void store(const State<double>& x, N_Vector v) {
-  realtype* y = N_VGetArrayPointer(v);
-  y[0] = x.q1;
-  y[1] = x.q2;
-  y[2] = x.q1_dot;
-  y[3] = x.q2_dot;
-}
 
 bool is_finite(const State<double>& x) {
   return std::isfinite(x.q1) && std::isfinite(x.q2) && std::isfinite(x.q1_dot) && std::isfinite(x.q2_dot);
@@ -141,10 +106,10 @@ struct CvodeIntegrator::Solver final : DenseOutput {
   [[nodiscard]] double step_end() const;
 
   sundials::Context context;
-  Vector y;
-  Vector work;
+  StateVector y;
+  StateVector work;
   NonlinearSolver nonlinear_solver;
-  Cvode cvode;
+  CvodeMemory cvode;
   PhaseContext user{};
   double tolerance;                       // as asked for
   double looseness{1.0};                  // of the tolerances in force, over those asked for
