@@ -24,6 +24,11 @@ std::string readable_share(double share, std::uint64_t trials) {
   return fmt::format("{:.{}f} %", 100.0 * share, decimals);
 }
 
+std::string readable_shares(double low, double high, std::uint64_t trials) {
+  const std::string first = readable_share(low, trials);
+  return fmt::format("{} to {}", first.substr(0, first.size() - 2), readable_share(high, trials));
+}
+
 std::string readable_duration(double seconds) {
   if (seconds <= 0.999) return fmt::format("{:.0f} ms", std::ceil(1000.0 * seconds));
   if (seconds < 119.95) return fmt::format("{:.1f} s", seconds);

@@ -22,6 +22,9 @@ std::string counted(std::uint64_t count, const char* noun);
 /// @param share  in [0, 1]
 std::string readable_share(double share, std::uint64_t trials);
 
+/// Two shares of the same trials as a range, "45.21 to 48.50 %". @param low, high  in [0, 1]
+std::string readable_shares(double low, double high, std::uint64_t trials);
+
 /// A duration: "4 ms" (rounded up), "7.4 s", "2 min 05 s", "3 h 20 min". @param seconds  >= 0
 std::string readable_duration(double seconds);
 
