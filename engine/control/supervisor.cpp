@@ -53,20 +53,21 @@ bool realigns_after(PhaseKind last, Realignment realignment) {
   return false;
 }
 
-Phase cycle(PhaseKind kind, double period, double amplitude) {
-  Phase phase;
+// What follows fills in a phase that is as it is made: to return one would copy it, which takes as long as to decide.
+
+void set_cycle(PhaseKind kind, double period, double amplitude, Phase& phase) {
   phase.kind = kind;
   phase.duration = period;
   phase.amplitude = amplitude;
-  return phase;
 }
 
-Phase align(const State<double>& x, const Controller& controller, const Goal& goal) {
-  if (controller.policy == Policy::robust) return align_robustly(x, controller, goal);
-  Phase phase;
+void align(const State<double>& x, const Controller& controller, const Goal& goal, Phase& phase) {
+  if (controller.policy == Policy::robust) {
+    phase = align_robustly(x, controller, goal);
+    return;
+  }
   phase.kind = PhaseKind::align;
   phase.active_tolerance = controller.alignment.tolerance;
-  return phase;
 }
 
 /// (16): the period of a contraction cycle from here.
@@ -75,68 +76,65 @@ double contraction_period(const PassiveJoint& joint, const Controller& controlle
 }
 
 /// (17)
-Phase contraction(double period, const PassiveJoint& joint, const Controller& controller) {
+void contract(double period, const PassiveJoint& joint, const Controller& controller, Phase& phase) {
   const double gain = controller.coupling * controller.coupling * beta * std::abs(joint.s2);
   const double amplitude = std::sqrt(period * (1.0 - controller.contraction.eta2) * joint.omega / gain);
-  return cycle(PhaseKind::contraction, period, amplitude);
+  set_cycle(PhaseKind::contraction, period, amplitude, phase);
 }
 
 /// Rule 5: let the joint turn towards the goal until it is `entry_fraction` into its quadrant (cases T1, T2).
-Phase drift_to_entry(const State<double>& x, const PassiveJoint& joint, const Controller& controller,
-                     const Goal& goal) {
+void drift_to_entry(const State<double>& x, const PassiveJoint& joint, const Controller& controller, const Goal& goal,
+                    Phase& phase) {
   double distance = controller.entry_fraction * goal.width - joint.u;
   if (distance <= arrival_slack) distance += 2.0 * pi;
-  Phase phase;
   phase.kind = PhaseKind::drift;
   (goal.sigma > 0.0 ? phase.q2_high : phase.q2_low) = x.q2 + goal.sigma * distance;
   phase.direction = goal.sigma;
   phase.speed_floor = 0.99 * controller.rest_speed;
-  return phase;
 }
 
 /// Rule 6: let the joint turn away from the goal until a swing has authority over it (case T3).
 ///
 /// It ends where s2 = -(min_authority + 0.1); s2 = sin 2v with v = sigma q2 is above that while v lies within
 /// half + pi/4 of an odd multiple of pi/4 congruent to pi/4 modulo pi, half = asin(min_authority + 0.1) / 2.
-Phase drift_to_authority(const State<double>& x, const Controller& controller, const Goal& goal) {
+void drift_to_authority(const State<double>& x, const Controller& controller, const Goal& goal, Phase& phase) {
   const double half = 0.5 * arc_sine(controller.swing.min_authority + 0.1) + 0.25 * pi;
   const double v = goal.sigma * x.q2;
   const double centre = 0.25 * pi + pi * std::nearbyint((v - 0.25 * pi) / pi);
-  Phase phase;
   phase.kind = PhaseKind::drift;
   phase.q2_low = goal.sigma * centre - half;
   phase.q2_high = goal.sigma * centre + half;
   phase.direction = -goal.sigma;
   phase.speed_floor = 0.99 * controller.rest_speed;
-  return phase;
 }
 
 /// Rule 7: change the passive joint's speed towards the wanted one with a cycle (case T3).
-Phase swing(const PassiveJoint& joint, const Controller& controller) {
+void swing(const PassiveJoint& joint, const Controller& controller, Phase& phase) {
   const Controller::Swing& k = controller.swing;
   double change = joint.s2 < 0.0 ? k.speed - joint.omega : k.speed + joint.omega;
   if (change < 0.0) change = k.speed;
   const double gain = controller.coupling * controller.coupling * beta * std::max(1e-6, std::abs(joint.s2));
-  return cycle(PhaseKind::swing, k.period, std::min(k.max_amplitude, std::sqrt(k.period * change / gain)));
+  set_cycle(PhaseKind::swing, k.period, std::min(k.max_amplitude, std::sqrt(k.period * change / gain)), phase);
 }
 
 /// Rules 4-7.
-Phase steer(const State<double>& x, const PassiveJoint& joint, const Controller& controller, const Goal& goal) {
+void steer(const State<double>& x, const PassiveJoint& joint, const Controller& controller, const Goal& goal,
+           Phase& phase) {
   const double entry = controller.entry_fraction * goal.width - arrival_slack;
   const bool inside = joint.omega > 0.0 && entry <= joint.u && joint.u < goal.width;
   if (inside) {  // rule 4
     const double period = contraction_period(joint, controller, goal);
-    if (period <= controller.contraction.max_period) return contraction(period, joint, controller);
+    if (period <= controller.contraction.max_period) return contract(period, joint, controller, phase);
   }
   const double authority = controller.swing.min_authority;
   const bool too_slow = joint.omega < controller.drift.min_speed && joint.s2 < -authority;
   if (joint.omega > controller.rest_speed && !inside && !too_slow) {
-    return drift_to_entry(x, joint, controller, goal);  // rule 5
+    return drift_to_entry(x, joint, controller, goal, phase);  // rule 5
   }
   if (joint.omega < -controller.rest_speed && joint.s2 > -authority) {
-    return drift_to_authority(x, controller, goal);  // rule 6
+    return drift_to_authority(x, controller, goal, phase);  // rule 6
   }
-  return swing(joint, controller);  // rule 7
+  swing(joint, controller, phase);  // rule 7
 }
 
 void note(const Phase& phase, Memory& memory) {
@@ -162,40 +160,45 @@ void note(const Phase& phase, Memory& memory) {
 STEERSTAT_CLONED
 std::optional<Status> decide(double t, const State<double>& x, const Controller& controller, const Goal& goal,
                              Memory& memory, Phase& phase) {
-  const auto run = [&](const Phase& chosen) {
-    phase = chosen;
-    note(chosen, memory);
+  phase = Phase{};
+  const auto run_align = [&] {
+    align(x, controller, goal, phase);
+    note(phase, memory);
     return std::optional<Status>{};
   };
-  const double active = active_error(x, goal);
-  const bool aligned = active <= controller.alignment.tolerance;
+  // Only asked where the answer counts: it waits for a square root.
+  const auto aligned = [&] { return active_error(x, goal) <= controller.alignment.tolerance; };
   const bool late = t >= controller.horizon - time_slack;
   // Every trial starts with align. An align that is skipped, or has no time left, counts as one that ended at once.
-  if (!memory.last && !aligned && !late && is_finite(x)) return run(align(x, controller, goal));
+  if (!memory.last && !late && is_finite(x) && !aligned()) return run_align();
 
   if (has_diverged(x, goal)) return Status::diverged;
   if (late || memory.decisions >= most_decisions) return Status::timeout;  // rule 1
   const bool robust = controller.policy == Policy::robust;
   const Realignment realignment = robust ? Realignment::after_cycle : controller.realignment;
-  if (memory.last && realigns_after(*memory.last, realignment) && !aligned) return run(align(x, controller, goal));
+  if (memory.last && realigns_after(*memory.last, realignment) && !aligned()) return run_align();
 
   ++memory.decisions;
   // This counts as a decision, so that a trial whose aligns are cut again and again ends.
-  const bool cut = robust && memory.last == PhaseKind::align && !aligned;
-  if (cut && aligns_too_fast(x, memory.pace, controller, goal)) return run(align(x, controller, goal));
+  const bool cut = robust && memory.last == PhaseKind::align && !aligned();
+  if (cut && aligns_too_fast(x, memory.pace, controller, goal)) return run_align();
   if (robust) learn(x, controller, goal, memory.experience);
-  if (passive_error(x, goal) <= controller.convergence.tolerance) {  // rule 2
-    if (active <= controller.convergence.active_tolerance) return Status::converged;
-    return run(align(x, controller, goal));
+  // The speed alone mostly tells, before the wrapped angle is there.
+  const double tolerance = controller.convergence.tolerance;
+  if (std::abs(x.q2_dot) <= tolerance && passive_error(x, goal) <= tolerance) {  // rule 2
+    if (active_error(x, goal) <= controller.convergence.active_tolerance) return Status::converged;
+    return run_align();
   }
   const PassiveJoint joint = passive_joint(x, goal);
   if (std::abs(joint.sine) <= 1e-6 && std::abs(x.q2_dot) <= 1e-6) return Status::singular;  // rule 3
   if (robust) {
-    run(steer_robustly(x, memory.experience, controller, goal));
+    phase = steer_robustly(x, memory.experience, controller, goal);
     embark(phase, x, memory.experience);
-    return std::nullopt;
+  } else {
+    steer(x, joint, controller, goal, phase);
   }
-  return run(steer(x, joint, controller, goal));
+  note(phase, memory);
+  return std::nullopt;
 }
 
 }  // namespace steerstat

@@ -110,9 +110,11 @@ class Kernel final : public LockstepEngine {
   }
 
   std::uint64_t step() override {
+    StepReport reports[pack_count];
+    advance(packs_, log2_tolerance_, reports);
     std::uint64_t ended = 0, watch = 0, unsound = 0, stalled = 0;
     for (int pack = 0; pack < pack_count; ++pack) {
-      const StepReport report = advance(packs_[pack], log2_tolerance_);
+      const StepReport& report = reports[pack];
       const auto at_its_place = [&](std::uint32_t bits) { return std::uint64_t{bits} << (pack * Pack::lanes); };
       ended |= at_its_place(report.reached_end);
       watch |= at_its_place(report.watch);

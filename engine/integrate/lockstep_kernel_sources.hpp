@@ -6,6 +6,10 @@
 
 #include "integrate/lockstep_lanes.hpp"
 
+#include "integrate/lockstep_quiet.hpp"
+
+#include "integrate/lockstep_step.hpp"
+
 #include "integrate/lockstep_motion.hpp"
 
 #include "integrate/lockstep_guards.hpp"

@@ -20,7 +20,7 @@ Part part_of(std::string_view name) {
   };
   static const std::array<Rule, 6> rules{
       {{Part::series, {"::expand"}},
-       {Part::step, {"::advance"}},
+       {Part::step, {"::advance", "::begin_step", "::choose_step", "::move<", "::watch<", "::may_reach_ceiling"}},
        {Part::guards,
         {"first_crossing", "refine", "::sample(", "locate_guard", "LaneMotion", "take_lane", "::search("}},
        {Part::supervisor, {"steerstat::decide"}},

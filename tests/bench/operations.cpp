@@ -11,6 +11,10 @@
 
 #include "integrate/lockstep_lanes.hpp"
 
+#include "integrate/lockstep_quiet.hpp"
+
+#include "integrate/lockstep_step.hpp"
+
 namespace steerstat::bench {
 namespace {
 
@@ -24,7 +28,8 @@ Operations count(Work&& work) {
 template <int precision>
 StepOperations count_at() {
   using counting::Pack;
-  counting::Lanes<precision> lanes{};
+  counting::Lanes<precision> packs[1]{};
+  counting::Lanes<precision>& lanes = packs[0];
   for (counting::Row* row :
        {&lanes.unit, &lanes.rate, &lanes.t_end, &lanes.scale, &lanes.direction, &lanes.V, &lanes.w}) {
     (*row)[0] = 1.0;  // any numbers: what is done does not depend on them
@@ -34,7 +39,10 @@ StepOperations count_at() {
   StepOperations operations{};
   operations.series =
       count([&] { counting::expand(loop, law, Pack(0.1), Pack(0.2), Pack(0.3), Pack(0.4), lanes.series); });
-  operations.step = count([&] { counting::advance(lanes, -30.0); });
+  operations.step = count([&] {
+    counting::StepReport reports[1];
+    counting::advance(packs, -30.0, reports);
+  });
   return operations;
 }
 
