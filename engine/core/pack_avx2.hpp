@@ -49,6 +49,10 @@ struct Pack {
 inline Pack load(const double* p) {
   return {_mm256_load_pd(p), _mm256_load_pd(p + 4)};
 }
+/// Of any alignment.
+inline Pack load_anywhere(const double* p) {
+  return {_mm256_loadu_pd(p), _mm256_loadu_pd(p + 4)};
+}
 inline void store(double* p, Pack x) {
   _mm256_store_pd(p, x.a);
   _mm256_store_pd(p + 4, x.b);

@@ -47,6 +47,10 @@ struct Pack {
 inline Pack load(const double* p) {
   return {_mm512_load_pd(p), _mm512_load_pd(p + 8)};
 }
+/// Of any alignment.
+inline Pack load_anywhere(const double* p) {
+  return {_mm512_loadu_pd(p), _mm512_loadu_pd(p + 8)};
+}
 inline void store(double* p, Pack x) {
   _mm512_store_pd(p, x.a);
   _mm512_store_pd(p + 8, x.b);

@@ -61,6 +61,9 @@ inline Mask operator==(Pack x, Pack y) {
 inline Pack load(const double* p) {
   return *p;
 }
+inline Pack load_anywhere(const double* p) {
+  return *p;
+}
 inline void store(double* p, Pack x) {
   *p = x.v;
 }

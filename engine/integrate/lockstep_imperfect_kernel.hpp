@@ -12,8 +12,8 @@ struct ReadAlignGuard {
   [[nodiscard]] Evidence judge(const Samples& s, double slack, double width) const {
     Evidence evidence;
     for (int i = 0; i < Samples::parts; i += Pack::lanes) {
-      const Pack E0 = load(s.before.position + i), V0 = load(s.before.velocity + i) + Pack(read_V);
-      const Pack E1 = load(s.after.position + i), V1 = load(s.after.velocity + i) + Pack(read_V);
+      const Pack E0 = s.position.starts(i), V0 = s.velocity.starts(i) + Pack(read_V);
+      const Pack E1 = s.position.ends(i), V1 = s.velocity.ends(i) + Pack(read_V);
       const Pack limit(radius * radius);
       const Mask out0 = limit < fma(E0, E0, V0 * V0);
       const Mask out1 = limit < fma(E1, E1, V1 * V1);
@@ -27,10 +27,12 @@ struct ReadAlignGuard {
     velocity += read_V;
     return std::fma(position, position, velocity * velocity) - radius * radius;
   }
-  [[nodiscard]] double rate(const Motion& m) const {
+  [[nodiscard]] static const Motion<double>& watched(const Moment<double>& moment) { return moment.joint[joint]; }
+  [[nodiscard]] double value(const Motion<double>& m) const { return value(m.position, m.velocity); }
+  [[nodiscard]] double rate(const Motion<double>& m) const {
     return 2.0 * (m.velocity * m.position + (m.velocity + read_V) * m.acceleration);
   }
-  [[nodiscard]] double curvature(const Motion& m) const {
+  [[nodiscard]] double curvature(const Motion<double>& m) const {
     return 2.0 *
            (m.velocity * m.velocity + m.acceleration * (m.position + m.acceleration) + (m.velocity + read_V) * m.jerk);
   }
@@ -185,7 +187,7 @@ class ImperfectKernel final : public LockstepEngine {
     const Trial& trial = trials_[lane];
     const auto [lanes, i] = place(lane);
     const double dt = t - (trial.t_start + lanes.t_start[i]);
-    LaneMotion::Moment moment;
+    Moment<double> moment;
     motion_of(lanes, i).at(dt, moment);
     const auto& [first, second] = moment.joint;
     return {trial.goal + first.position / trial.K, second.position, first.velocity / trial.K, second.velocity};
@@ -241,9 +243,9 @@ class ImperfectKernel final : public LockstepEngine {
     return value;
   }
 
-  static LaneMotion motion_of(const ImperfectLanes& lanes, int i) {
-    LaneMotion motion;
-    JointSeries &first = motion.joint[0], &second = motion.joint[1];
+  static StepMotion<double> motion_of(const ImperfectLanes& lanes, int i) {
+    StepMotion<double> motion;
+    JointSeries<double>&first = motion.joint[0], &second = motion.joint[1];
     for (int k = 0; k <= order; ++k) {
       first.x[k] = coefficient(lanes.series.V[k], i);
       second.x[k] = coefficient(lanes.series.w[k], i);
@@ -255,9 +257,9 @@ class ImperfectKernel final : public LockstepEngine {
   }
 
   /// The force asked for over the last step, in the place of both velocities.
-  static LaneMotion force_asked(const ImperfectLanes& lanes, int i) {
-    LaneMotion motion;
-    JointSeries& force = motion.joint[DriftGuard::joint];
+  static StepMotion<double> force_asked(const ImperfectLanes& lanes, int i) {
+    StepMotion<double> motion;
+    JointSeries<double>& force = motion.joint[DriftGuard::joint];
     for (int k = 0; k < order; ++k) force.x[k] = coefficient(lanes.series.D[k], i) * lanes.rate_start[i];
     force.x[order] = 0.0;
     force.rate = lanes.rate_start[i];
@@ -266,28 +268,32 @@ class ImperfectKernel final : public LockstepEngine {
     return motion;
   }
 
-  /// Where a guard first fires within a step of size h.
-  template <class Guard>
-  static Crossing locate(const Guard& guard, const LaneMotion& motion, double h, double bend, bool armed) {
+  /// When a guard first fires within a step of size h [s since its start]; infinite: never.
+  template <class G>
+  static double locate(const G& guard, const StepMotion<double>& motion, double h, double bend, bool armed) {
+    const SeriesView joint = view(motion.joint[G::joint]);
     Samples samples;
-    sample(motion.joint[Guard::joint], 0.0, h, samples);
-    Crossing crossing;
-    first_crossing(guard, motion, samples, 0.0, h, bend, armed, 0, crossing);
-    return crossing;
+    sample(joint, 0.0, h, joint.start, joint.x[0] * joint.rate, samples);
+    Bracket<double> bracket;
+    if (!bracket_crossing(guard, joint, samples, bend, armed, 0, bracket)) return Phase::unbounded;
+    Moment<double> near;
+    if constexpr (std::is_same_v<G, ReadAlignGuard>) {
+      return refine(guard, motion, bracket, true, 0, near);
+    } else {
+      return refine(GuardFunction<double>(guard.terms(), 0), motion, bracket, true, 0, near);
+    }
   }
 
-  /// Where a guard of the lane's phase first fires within its last step.
-  [[nodiscard]] Crossing locate_guard(int lane) const {
+  /// When a guard of the lane's phase first fires within its last step.
+  [[nodiscard]] double locate_guard(int lane) const {
     const auto [lanes, i] = place(lane);
     const double h = lanes.h[i];
     const double bend = lanes.bend[i] / (h * h);
     const bool armed = (armed_ & bit(lane)) != 0;
-    const LaneMotion motion = motion_of(lanes, i);
-    Crossing first;
+    const StepMotion<double> motion = motion_of(lanes, i);
+    double t = Phase::unbounded;
     const auto consider = [&](const auto& guard, double bound) {
-      if (!(std::abs(bound) < Phase::unbounded)) return;
-      const Crossing crossing = locate(guard, motion, h, bend, armed);
-      if (crossing.t < first.t) first = crossing;
+      if (std::abs(bound) < Phase::unbounded) t = std::min(t, locate(guard, motion, h, bend, armed));
     };
     if (lanes.radius[i] >= 0.0) {
       consider(ReadAlignGuard{lanes.radius[i], lanes.read_V[i]}, lanes.radius[i]);
@@ -295,13 +301,13 @@ class ImperfectKernel final : public LockstepEngine {
       const double read = kd * lanes.read_V[i];  // what reading adds to b
       consider(CeilingGuard{kp, kd, 1.0, ceiling - read}, ceiling);
       consider(CeilingGuard{kp, kd, -1.0, ceiling + read}, ceiling);
-      return first;
+      return t;
     }
     const auto consider_drift = [&](const DriftGuard& guard) { consider(guard, guard.bound); };
     consider_drift({false, 1.0, lanes.q2_low[i]});
     consider_drift({false, -1.0, -lanes.q2_high[i]});
     consider_drift({true, lanes.direction[i], lanes.speed_floor[i]});
-    return first;
+    return t;
   }
 
   /// When the force asked for first crosses the limit within a lane's last step, and the mode that it goes on in.
@@ -315,17 +321,17 @@ class ImperfectKernel final : public LockstepEngine {
     const double h = lanes.h[i];
     const double bend = lanes.force_bend[i] / (h * h);
     const double limit = lanes.loop.limit[i];
-    const LaneMotion force = force_asked(lanes, i);
-    LaneMotion::Moment end;
+    const StepMotion<double> force = force_asked(lanes, i);
+    Moment<double> end;
     force.at(h, end);
     const double last = end.joint[DriftGuard::joint].velocity;
     const double mode = lanes.mode[i];
     if (mode != within_limits) {
-      const double t = locate(DriftGuard{true, mode, limit}, force, h, bend, false).t;
+      const double t = locate(DriftGuard{true, mode, limit}, force, h, bend, false);
       return {t, within_limits, t > h && mode * last < limit};
     }
-    const double upper = locate(DriftGuard{true, -1.0, -limit}, force, h, bend, false).t;
-    const double lower = locate(DriftGuard{true, 1.0, -limit}, force, h, bend, false).t;
+    const double upper = locate(DriftGuard{true, -1.0, -limit}, force, h, bend, false);
+    const double lower = locate(DriftGuard{true, 1.0, -limit}, force, h, bend, false);
     const double t = std::min(upper, lower);
     const double side = t > h ? last : lower - upper;
     return {t, side > 0.0 ? at_upper_limit : at_lower_limit, t > h && std::abs(last) > limit};
@@ -335,10 +341,10 @@ class ImperfectKernel final : public LockstepEngine {
   Found search(int lane, bool watch, bool force) {
     ++counters_.searches;
     const auto [lanes, i] = place(lane);
-    const Crossing guard = watch ? locate_guard(lane) : Crossing{};
+    const double guard = watch ? locate_guard(lane) : Phase::unbounded;
     if (force) {
       const Kink kink = locate_kink(lane);
-      if (kink.t < guard.t && kink.t <= lanes.h[i]) {
+      if (kink.t < guard && kink.t <= lanes.h[i]) {
         put(lane, kink.t);
         lanes.mode[i] = kink.mode;
         return Found::kink;
@@ -351,8 +357,8 @@ class ImperfectKernel final : public LockstepEngine {
         return Found::kink;
       }
     }
-    if (!(guard.t <= lanes.h[i])) return Found::nothing;
-    put(lane, guard.t);
+    if (!(guard <= lanes.h[i])) return Found::nothing;
+    put(lane, guard);
     trials_[lane].cause = Cause::guard;
     return Found::guard;
   }
@@ -360,7 +366,7 @@ class ImperfectKernel final : public LockstepEngine {
   /// Puts a lane to t [s] after its last step's start.
   void put(int lane, double t) {
     const auto [lanes, i] = place(lane);
-    LaneMotion::Moment moment;
+    Moment<double> moment;
     motion_of(lanes, i).at(t, moment);
     const auto& [first, second] = moment.joint;
     lanes.E[i] = first.position;

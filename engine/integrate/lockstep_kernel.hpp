@@ -128,9 +128,7 @@ class Kernel final : public LockstepEngine {
     for_each_lane(ended & ~seated_, [&](int lane) { set_time(lane, 0.0); });
 
     ended &= seated_ & ~unsound;
-    for_each_lane(watch & seated_ & ~unsound, [&](int lane) {
-      if (search(lane)) ended |= bit(lane);
-    });
+    ended |= search(watch & seated_ & ~unsound);
     armed_ |= ~watch;  // every guard of these was positive throughout
     for_each_lane(stalled & seated_ & ~unsound, [&](int lane) {
       trials_[lane].cause = Cause::failure;
@@ -157,9 +155,9 @@ class Kernel final : public LockstepEngine {
     const Trial& trial = trials_[lane];
     const auto [lanes, i] = place(lane);
     const double dt = t - (trial.t_start + lanes.t_start[i]);
-    LaneMotion motion;
+    StepMotion<double> motion;
     take_lane(lanes, i, motion);
-    LaneMotion::Moment moment;
+    Moment<double> moment;
     motion.at(dt, moment);
     const auto& [first, second] = moment.joint;
     return {trial.loop.q1_goal + first.position / trial.K, second.position, first.velocity / trial.K, second.velocity};
@@ -211,25 +209,68 @@ class Kernel final : public LockstepEngine {
     lanes.rate[i] = 1.0 / unit;
   }
 
-  /// Puts a lane to where a guard fired within its last step. @return whether one did
-  bool search(int lane) {
-    ++counters_.searches;
+  /// Puts lanes to where a guard fired within their last step. @return those where one did
+  std::uint64_t search(std::uint64_t suspects) {
+    std::uint64_t fired = 0;
+    for_each_lane(suspects, [&](int lane) {
+      ++counters_.searches;
+      if (firings_.count + most_guards > slots) fired |= fire();
+      note_firings(lane);
+    });
+    return fired | fire();
+  }
+
+  /// Adds the guards of a lane's phase that fire within its last step.
+  void note_firings(int lane) {
     const auto [lanes, i] = place(lane);
-    LaneMotion motion;
-    take_lane(lanes, i, motion);
-    Crossing crossing;
-    locate_guard(lanes, i, motion, (armed_ & bit(lane)) != 0, crossing);
-    if (!(crossing.t <= lanes.h[i])) return false;
-    const Motion first = crossing.motion(0);
-    const Motion second = crossing.motion(1);
-    lanes.E[i] = first.position;
-    lanes.V[i] = first.velocity;
-    lanes.q2[i] = second.position;
-    lanes.w[i] = second.velocity;
-    lanes.t[i] = lanes.t_start[i] + crossing.t;
-    if constexpr (measured) lanes.done[i] = crossing.t;
-    trials_[lane].cause = Cause::guard;
-    return true;
+    const bool aligning = lanes.radius[i] >= 0.0;
+    int slot = firings_.count;
+    take_lane(lanes, i, firings_.motion, slot);
+    const SeriesView joint = view(firings_.motion.joint[aligning ? 0 : 1], slot);
+    const double h = lanes.h[i], bend = lanes.bend[i] / (h * h);
+    const bool armed = (armed_ & bit(lane)) != 0;
+    Samples samples;
+    sample(joint, 0.0, h, joint.start, joint.x[0] * joint.rate, samples);
+    const auto consider = [&](const auto& guard, double bound) {
+      Bracket<double> bracket;
+      if (!(std::abs(bound) < Phase::unbounded)) return;
+      if (!bracket_crossing(guard, joint, samples, bend, armed, 0, bracket)) return;
+      if (firings_.count > slot) take_lane(lanes, i, firings_.motion, firings_.count);
+      firings_.add(lane, guard.terms(), bracket);
+    };
+    if (aligning) {
+      consider(AlignGuard{lanes.radius[i]}, lanes.radius[i]);
+      const double kp = lanes.kp[i], kd = lanes.kd[i], ceiling = lanes.ceiling[i];
+      consider(CeilingGuard{kp, kd, 1.0, ceiling}, ceiling);
+      consider(CeilingGuard{kp, kd, -1.0, ceiling}, ceiling);
+    } else {
+      const auto consider_drift = [&](const DriftGuard& guard) { consider(guard, guard.bound); };
+      consider_drift({false, 1.0, lanes.q2_low[i]});
+      consider_drift({false, -1.0, -lanes.q2_high[i]});
+      consider_drift({true, lanes.direction[i], lanes.speed_floor[i]});
+    }
+  }
+
+  /// Puts the lanes of the firings noted to the first of theirs.
+  std::uint64_t fire() {
+    std::uint64_t fired = 0;
+    firings_.locate();
+    for (int slot = 0; slot < firings_.count; ++slot) {
+      const int lane = firings_.lane[slot];
+      const auto [lanes, i] = place(lane);
+      const double t = lanes.t_start[i] + firings_.t[slot];
+      if ((fired & bit(lane)) != 0 && lanes.t[i] <= t) continue;
+      fired |= bit(lane);
+      lanes.E[i] = firings_.E[slot];
+      lanes.V[i] = firings_.V[slot];
+      lanes.q2[i] = firings_.q2[slot];
+      lanes.w[i] = firings_.w[slot];
+      lanes.t[i] = t;
+      if constexpr (measured) lanes.done[i] = firings_.t[slot];
+      trials_[lane].cause = Cause::guard;
+    }
+    firings_.count = 0;
+    return fired;
   }
 
   /// Measures every lane's last step. @param ended  lanes whose phase has ended
@@ -266,7 +307,7 @@ class Kernel final : public LockstepEngine {
   /// @return false, with the lane's cause set, when that cannot be what is wrong
   bool retry(int lane) {
     const auto [lanes, i] = place(lane);
-    LaneMotion motion;
+    StepMotion<double> motion;
     take_lane(lanes, i, motion);
     const auto& [first, second] = motion.joint;
     lanes.E[i] = first.start;
@@ -283,8 +324,10 @@ class Kernel final : public LockstepEngine {
 
   double log2_tolerance_;
   std::uint64_t seated_{0};
-  std::uint64_t armed_{0};   ///< lanes whose guards have all been positive in this phase
-  std::uint64_t capped_{0};  ///< lanes whose phase has a ceiling
+  std::uint64_t armed_{0};               ///< lanes whose guards have all been positive in this phase
+  std::uint64_t capped_{0};              ///< lanes whose phase has a ceiling
+  static constexpr int most_guards = 3;  // of a phase
+  Firings firings_{};
   LanesType packs_[pack_count]{};
   Trial trials_[pack_count * Pack::lanes]{};
 };

@@ -14,6 +14,8 @@
 
 #include "integrate/lockstep_guards.hpp"
 
+#include "integrate/lockstep_roots.hpp"
+
 #include "integrate/lockstep_exertion.hpp"
 
 #include "integrate/lockstep_kernel.hpp"

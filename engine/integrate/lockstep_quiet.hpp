@@ -26,10 +26,14 @@ inline Mask stays_below(Pack kp, Pack kd, Pack E0, Pack V0, Pack E1, Pack V1, Pa
   return fma(strays, Pack(1.0 / 8), ends) < ceiling;
 }
 
-/// Bounds on how far a step's motion strays from straight lines.
+/// Where sums at a step's quarters leave off; of the terms from there on, 3/4 of a step has a tenth.
+inline constexpr int last_quarter_term = 7;
+
+/// Bounds on a step's motion.
 struct Bend {
-  Single velocity;  ///< h^2 |second derivative| of the watched velocity, at most
+  Single velocity;  ///< how far it strays from a straight line: h^2 |second derivative| of the watched one, at most
   Single position;  ///< the same of its integral
+  Single tail;      ///< what terms above last_quarter_term make of the velocity or the position, within 3/4 of the step
 };
 
 /// @param aligning  watch V there, w elsewhere
@@ -38,12 +42,19 @@ template <int precision>
 Bend bound_bend(const Expansion<precision>& series, Mask aligning, Single t, Single rate) {
   const auto watched = [&](int k) { return abs(select(aligning, series.V_short[k], series.w_short[k])); };
   Single sum = watched(order) * Single(1.0 * order * (order - 1));
+  Single high = sum;
   unroll<0, order - 2>([&]<int i>() __attribute__((always_inline)) {
     constexpr int k = order - 1 - i;
     sum = fma(sum, t, watched(k) * Single(1.0 * k * (k - 1)));
+    if constexpr (k == last_quarter_term + 1) high = sum;
   });
-  sum = sum * (t * t) * Single(1.0 + 1e-5);  // with the roundings of this sum
-  return {sum * rate, fma(watched(1), t, sum) * t};
+  const Single square = t * t;
+  sum = sum * square * Single(1.0 + 1e-5);  // with the roundings of this sum
+  constexpr int k = last_quarter_term + 1;
+  static_assert(k == 8, "t^k below");
+  // The terms are `high` t^k over k (k - 1) at most; (3/4)^k < 0.1002. An integral has t / (k + 1) of it.
+  const Single tail = high * (square * square) * (square * square) * Single(0.1002 / (k * (k - 1)));
+  return {sum * rate, fma(watched(1), t, sum) * t, fma(t, Single(1.0 / (k + 1)), rate) * tail};
 }
 
 /// Whether align's guard cannot have fired in the step: a proof, not a sample, in single precision with its roundings
@@ -58,17 +69,17 @@ Mask stays_out(const Expansion<precision>& series, Single E0, Single V0, Single 
   Single E[3], V[3];  // at the quarters between
   unroll<0, 3>([&]<int i>() __attribute__((always_inline)) {
     const Single part = t * Single(0.25 * (i + 1));
-    V[i] = series.V_short[order];
-    E[i] = V[i] * Single(1.0 / (order + 1));
-    unroll<0, order>([&]<int j>() __attribute__((always_inline)) {
-      constexpr int k = order - 1 - j;
+    V[i] = series.V_short[last_quarter_term];
+    E[i] = V[i] * Single(1.0 / (last_quarter_term + 1));
+    unroll<0, last_quarter_term>([&]<int j>() __attribute__((always_inline)) {
+      constexpr int k = last_quarter_term - 1 - j;
       V[i] = fma(V[i], part, series.V_short[k]);
       E[i] = fma(E[i], part, series.V_short[k] * Single(1.0 / (k + 1)));
     });
     E[i] = fma(E[i], part, E0);
     V[i] = V[i] * rate;
   });
-  const Single slack = (bend.velocity + bend.position) * Single(1.0 / 128);
+  const Single slack = (bend.velocity + bend.position) * Single(1.0 / 128) + bend.tail;
   const Single rounding =
       (abs(E0) + abs(V0) + abs(series.V_short[0] * t) + bend.velocity + bend.position) * Single(2e-6);
   const Single limit = radius + slack + rounding;
