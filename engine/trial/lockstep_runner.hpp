@@ -34,10 +34,12 @@ class LockstepRunner final : public TrialRunner {
 
   bool take_next(TrialStream& stream, int lane);
   void report(TrialStream& stream, int lane, Status status, double t, const State<double>& x);
+  bool finish_phase(TrialStream& stream, int lane);
   bool carry_on(TrialStream& stream, int lane, double t, const State<double>& x);
 
   std::unique_ptr<LockstepEngine> engine_;
   std::vector<Seat> seats_;
+  std::array<std::uint64_t, phase_names.size()> lanes_of_kind_{};  // by the phase that they are in
   bool metrics_;
 };
 
