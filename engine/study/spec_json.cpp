@@ -12,10 +12,12 @@
 #include "study/gates_json.hpp"
 #include "study/input_json.hpp"
 #include "study/inputs.hpp"
+#include "study/integrator_json.hpp"
 #include "study/intervals_json.hpp"
 #include "study/limits.hpp"
 #include "study/parse_json.hpp"
 #include "study/reader_json.hpp"
+#include "study/retention_json.hpp"
 #include "study/rules.hpp"
 #include "study/sampling_json.hpp"
 #include "study/stop_json.hpp"
@@ -23,9 +25,6 @@
 
 namespace steerstat {
 namespace {
-
-constexpr Range integrator_tolerance{
-    .low = 1e-14, .high = 1e-2, .includes_low = true, .includes_high = true, .rule = "in [1e-14, 0.01]"};
 
 std::size_t characters_in(const std::string& utf8) {
   std::size_t count = 0;
@@ -59,7 +58,7 @@ class Decoder {
     if (const auto horizon = root_.find("horizon")) {
       study_.horizon = decode_fixed(*horizon, positive, "horizon", "write a spec for each").value_or(study_.horizon);
     }
-    if (const auto integrator = root_.find("integrator")) decode_integrator(*integrator);
+    if (const auto integrator = root_.find("integrator")) decode_integrator(*integrator, study_.integrator);
     if (const auto sampling = root_.find("sampling")) {
       const std::size_t start = errors_.size();
       study_.sampling = decode_sampling(*sampling, directory_, study_.inputs, mistaken_);
@@ -69,7 +68,7 @@ class Decoder {
       study_.integrator.metrics = metrics->boolean().value_or(study_.integrator.metrics);
     }
     if (const auto stop = root_.find("stop")) decode_stop_rule(*stop);
-    if (const auto retain = root_.find("retain")) decode_retention(*retain);
+    if (const auto retain = root_.find("retain")) study_.retention = decode_retention(*retain);
     if (const auto store = root_.find("store")) {
       if (const auto position = store->one_of(store_names)) study_.store = static_cast<Store>(*position);
     }
@@ -240,36 +239,6 @@ class Decoder {
     study_.stop = is_mistaken("sampling") ? decode_stop(reader, unknown, false, measured)
                                           : decode_stop(reader, study_.sampling, trials_are_given, measured);
     if (errors_.size() != before) mistaken_.emplace_back("stop");
-  }
-
-  void decode_integrator(const Reader& reader) {
-    if (!reader.require_object("an object {\"method\", \"tolerance\"}")) return;
-    static constexpr std::array<std::string_view, 2> known{"method", "tolerance"};
-    reader.refuse_unknown_keys(known);
-    if (const auto method = reader.find("method")) {
-      const auto position = method->one_of(IntegratorChoice::method_names);
-      if (position) study_.integrator.method = static_cast<IntegratorChoice::Method>(*position);
-    }
-    if (const auto tolerance = reader.find("tolerance")) {
-      study_.integrator.tolerance =
-          tolerance->number_in(integrator_tolerance, "integrator.tolerance").value_or(study_.integrator.tolerance);
-    }
-  }
-
-  void decode_retention(const Reader& reader) {
-    static constexpr std::array<std::string_view, 1> known{"trajectories"};
-    static constexpr std::array<std::string_view, 2> known_below{"failed", "first"};
-    if (!reader.require_object("an object {\"trajectories\"}")) return;
-    reader.refuse_unknown_keys(known);
-    const auto trajectories = reader.find("trajectories");
-    if (!trajectories || !trajectories->require_object("an object {\"failed\", \"first\"}")) return;
-    trajectories->refuse_unknown_keys(known_below);
-    if (const auto failed = trajectories->find("failed")) {
-      study_.retention.failed = failed->integer(0, most_trajectories).value_or(0);
-    }
-    if (const auto first = trajectories->find("first")) {
-      study_.retention.first = first->integer(0, most_trajectories).value_or(0);
-    }
   }
 
   void decode_audit(const Reader& reader) {
