@@ -1,13 +1,20 @@
-#include "service/excesses.hpp"
+#include "service/admitted_study.hpp"
 
 #include <fmt/format.h>
 
+#include <utility>
+#include <vector>
+
 #include "report/readable.hpp"
+#include "service/service_errors.hpp"
 #include "service/study_demand.hpp"
 #include "study/plan.hpp"
+#include "study/spec_json.hpp"
 
 namespace steerstat {
+namespace {
 
+/// What a valid study asks for that the service does not grant, by place in its spec; nothing where it is taken.
 std::vector<SpecError> excesses(const Study& study, const ServiceLimits& limits, std::uint64_t memory) {
   std::vector<SpecError> errors;
   if (study.store != Store::all) {
@@ -43,6 +50,18 @@ std::vector<SpecError> excesses(const Study& study, const ServiceLimits& limits,
                                          needed >> 20U, memory >> 20U)});
   }
   return errors;
+}
+
+}  // namespace
+
+Study admitted_study(std::string_view text, const ServiceLimits& limits, std::uint64_t memory) {
+  if (text.size() > limits.spec_bytes) {
+    throw LimitExceeded({{"", fmt::format("the spec has {} bytes (at most {} here); shorten it",
+                                          readable_count(text.size()), readable_count(limits.spec_bytes))}});
+  }
+  Study study = decode_study(text, {});
+  if (auto errors = excesses(study, limits, memory); !errors.empty()) throw LimitExceeded(std::move(errors));
+  return study;
 }
 
 }  // namespace steerstat

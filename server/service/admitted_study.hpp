@@ -1,16 +1,17 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
+#include <string_view>
 
-#include "core/errors.hpp"
 #include "service/service_limits.hpp"
 #include "study/study.hpp"
 
 namespace steerstat {
 
-/// What a valid study asks for that the service does not grant, by place in its spec; nothing where it is taken.
+/// Decodes a spec that a client sent. One that names files is refused.
+///
 /// @param memory  [bytes] that running studies may need together
-std::vector<SpecError> excesses(const Study& study, const ServiceLimits& limits, std::uint64_t memory);
+/// @throws BadSpec, LimitExceeded for a valid study that asks for more than the service grants; both with every mistake
+Study admitted_study(std::string_view text, const ServiceLimits& limits, std::uint64_t memory);
 
 }  // namespace steerstat

@@ -8,10 +8,9 @@
 
 #include "core/errors.hpp"
 #include "core/version.hpp"
-#include "report/readable.hpp"
+#include "service/admitted_study.hpp"
 #include "service/catalogue.hpp"
 #include "service/data_directory.hpp"
-#include "service/excesses.hpp"
 #include "service/kept_run.hpp"
 #include "service/study_reader.hpp"
 #include "service/study_runner.hpp"
@@ -69,14 +68,7 @@ class StudyService::Implementation {
   }
 
   Submission submit(std::string_view text) {
-    if (text.size() > limits_.spec_bytes) {
-      throw LimitExceeded({{"", fmt::format("the spec has {} bytes (at most {} here); shorten it",
-                                            readable_count(text.size()), readable_count(limits_.spec_bytes))}});
-    }
-    const auto study = std::make_shared<const Study>(decode_study(text, {}));
-    if (auto errors = excesses(*study, limits_, runner_.memory()); !errors.empty()) {
-      throw LimitExceeded(std::move(errors));
-    }
+    const auto study = std::make_shared<const Study>(admitted_study(text, limits_, runner_.memory()));
     const std::string id = study_id(*study);
     wait_while_cancelled(id);
     const std::lock_guard lock(changing_);
