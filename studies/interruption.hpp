@@ -16,7 +16,6 @@ class Interruption {
   Interruption& operator=(const Interruption&) = delete;
 
   [[nodiscard]] std::stop_token token() const { return stop_.get_token(); }
-  [[nodiscard]] bool requested() const { return stop_.stop_requested(); }
 
  private:
   std::stop_source stop_;
