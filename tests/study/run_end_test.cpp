@@ -47,7 +47,7 @@ class StoppingRunner final : public TrialRunner {
   std::stop_source& stop_;
 };
 
-class InterruptedRunOnAnEngine : public testing::TestWithParam<IntegratorChoice::Method> {};
+class InterruptedRunOnAnEngine : public ::testing::TestWithParam<IntegratorChoice::Method> {};
 
 TEST_P(InterruptedRunOnAnEngine, KeepsWhatAWholeRunHas) {
   Study study = spec_study(R"({"plant": {"m1": {"uniform": [0.8, 1.2]}}, "horizon": 30, "sampling": {"trials": 1},
@@ -73,7 +73,7 @@ TEST_P(InterruptedRunOnAnEngine, KeepsWhatAWholeRunHas) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Engines, InterruptedRunOnAnEngine,
-                         testing::Values(IntegratorChoice::Method::lockstep, IntegratorChoice::Method::cvode),
+                         ::testing::Values(IntegratorChoice::Method::lockstep, IntegratorChoice::Method::cvode),
                          [](const auto& one) {
                            return std::string(IntegratorChoice::method_names[static_cast<std::size_t>(one.param)]);
                          });

@@ -18,7 +18,7 @@
 namespace steerstat {
 namespace {
 
-class RunStudyOnAnEngine : public testing::TestWithParam<IntegratorChoice::Method> {};
+class RunStudyOnAnEngine : public ::testing::TestWithParam<IntegratorChoice::Method> {};
 
 TEST_P(RunStudyOnAnEngine, OutcomesAreTheSameBitsOnOneTwoAndThreeThreads) {
   Study study = spec_study(R"({
@@ -46,7 +46,7 @@ TEST_P(RunStudyOnAnEngine, OutcomesAreTheSameBitsOnOneTwoAndThreeThreads) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Engines, RunStudyOnAnEngine,
-                         testing::Values(IntegratorChoice::Method::lockstep, IntegratorChoice::Method::cvode),
+                         ::testing::Values(IntegratorChoice::Method::lockstep, IntegratorChoice::Method::cvode),
                          [](const auto& one) {
                            return std::string(IntegratorChoice::method_names[static_cast<std::size_t>(one.param)]);
                          });
