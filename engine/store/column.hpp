@@ -68,13 +68,20 @@ struct Rows {
   std::size_t of;
 };
 
+/// A dataset that must have `rows` rows. @throws Problem
+template <class Number>
+Column column_of(hid_t group, const std::string& name, const std::string& units, std::size_t rows) {
+  Column column(group, name, type_of(Number{}), units);
+  if (column.rows() != rows) {
+    throw Problem(name + " has " + std::to_string(column.rows()) + " rows, /trials/index " + std::to_string(rows));
+  }
+  return column;
+}
+
 /// Reads rows of a dataset that must have as many in all. @throws Problem
 template <class Number>
 std::vector<Number> read_column(hid_t group, const std::string& name, const std::string& units, Rows rows) {
-  const Column column(group, name, type_of(Number{}), units);
-  if (column.rows() != rows.of) {
-    throw Problem(name + " has " + std::to_string(column.rows()) + " rows, /trials/index " + std::to_string(rows.of));
-  }
+  const Column column = column_of<Number>(group, name, units, rows.of);
   std::vector<Number> values(rows.count);
   column.read(rows.begin, rows.count, values.data());
   return values;

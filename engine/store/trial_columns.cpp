@@ -14,20 +14,53 @@
 namespace steerstat::hdf5 {
 namespace {
 
-/// Of a settling time, which follows from status and end_time: whether it does.
-void check_settling_times(hid_t trials, Rows rows, std::span<const TrialOutcome> outcomes) {
-  const auto settling = read_column<double>(trials, "settling_time", "s", rows);
+/// Of settling times, which follow from status and end_time: whether they do. @param begin  row of the first
+void check_settling_times(std::size_t begin, std::span<const double> settling, std::span<const TrialOutcome> outcomes) {
   for (std::size_t row = 0; row < outcomes.size(); ++row) {
     const double expected = outcomes[row].settling_time();
     if (settling[row] != expected && !(std::isnan(settling[row]) && std::isnan(expected))) {
       throw Problem(
-          fmt::format("/trials/settling_time in row {} does not follow from status and end_time", rows.begin + row));
+          fmt::format("/trials/settling_time in row {} does not follow from status and end_time", begin + row));
     }
     if (outcomes[row].status == Status::converged && !std::isfinite(expected)) {
-      throw Problem(fmt::format("/trials/end_time in row {} is not finite, yet the trial converged", rows.begin + row));
+      throw Problem(fmt::format("/trials/end_time in row {} is not finite, yet the trial converged", begin + row));
     }
   }
 }
+
+/// Datasets of one type, and the members of an outcome that they fill.
+template <class Number>
+class OutcomeReader {
+ public:
+  /// @throws Problem where a dataset is not what it should be
+  OutcomeReader(hid_t trials, std::size_t rows) : trials_(trials), rows_(rows) {}
+
+  void open(std::span<const layout::OutcomeColumn<Number>> columns) {
+    for (const auto& column : columns) {
+      open_.push_back({column_of<Number>(trials_, column.name, column.units, rows_), column.field});
+    }
+  }
+
+  /// Fills them in outcomes of the rows from `begin` on. @throws Problem
+  void read(std::size_t begin, std::span<TrialOutcome> outcomes) {
+    values_.resize(outcomes.size());
+    for (const auto& [column, field] : open_) {
+      column.read(begin, outcomes.size(), values_.data());
+      for (std::size_t row = 0; row < outcomes.size(); ++row) field(outcomes[row]) = values_[row];
+    }
+  }
+
+ private:
+  struct Open {
+    Column column;
+    Number& (*field)(TrialOutcome&);
+  };
+
+  hid_t trials_;
+  std::size_t rows_;
+  std::vector<Open> open_{};
+  std::vector<Number> values_{};
+};
 
 }  // namespace
 
@@ -53,19 +86,29 @@ bool has_every_outcome(hid_t trials) {
 }
 
 std::vector<TrialOutcome> read_outcomes(hid_t trials, Rows rows) {
+  // So few rows at a time that their outcomes stay in the processor's cache from the first column to the last.
+  constexpr std::size_t most_together = 16384;
   std::vector<TrialOutcome> outcomes(rows.count);
   const std::vector<Status> statuses = read_statuses(trials, "/trials", rows);
-  for (std::size_t row = 0; row < rows.count; ++row) outcomes[row].status = statuses[row];
-  const auto read_field = [&]<class Number>(const layout::OutcomeColumn<Number>& column) {
-    const auto values = read_column<Number>(trials, column.name, column.units, rows);
-    for (std::size_t row = 0; row < rows.count; ++row) column.field(outcomes[row]) = values[row];
-  };
-  for (const auto& column : layout::real_columns) read_field(column);
-  for (const auto& column : layout::count_columns) read_field(column);
+  OutcomeReader<double> reals(trials, rows.of);
+  OutcomeReader<std::uint32_t> counts(trials, rows.of);
+  reals.open(layout::real_columns);
+  counts.open(layout::count_columns);
   for (const auto& column : layout::metric_columns) {
-    if (has_member(trials, column.name)) read_field(column);
+    if (has_member(trials, column.name)) reals.open({&column, 1});
   }
-  check_settling_times(trials, rows, outcomes);
+  const Column settling_times = column_of<double>(trials, "settling_time", "s", rows.of);
+  std::vector<double> settling;
+  for (std::size_t done = 0; done < rows.count; done += most_together) {
+    const std::size_t begin = rows.begin + done;
+    const auto together = std::span(outcomes).subspan(done, std::min(most_together, rows.count - done));
+    for (std::size_t row = 0; row < together.size(); ++row) together[row].status = statuses[done + row];
+    reals.read(begin, together);
+    counts.read(begin, together);
+    settling.resize(together.size());
+    settling_times.read(begin, settling.size(), settling.data());
+    check_settling_times(begin, settling, together);
+  }
   return outcomes;
 }
 

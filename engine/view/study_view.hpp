@@ -103,7 +103,12 @@ struct StudyViewOptions {
 
 StudyView study_view(const ViewedStudy& viewed, const StudyViewOptions& options = {});
 
-/// The view as JSON (schemas/view.schema.json), ending in a newline. @param summary  of the study's finished trials
-std::string study_view_json(const StudyView& view, const Summary& summary);
+/// The view as JSON (schemas/view.schema.json), ending in a newline.
+///
+/// @param summary       of the study's finished trials
+/// @param kept_summary  its JSON as it was kept, of a study without sweeps and Sobol' indices: it stands in the view
+///                      then, and `summary` needs to have requested, completed and intervals alone
+std::string study_view_json(const StudyView& view, const Summary& summary,
+                            const std::optional<std::string>& kept_summary = {});
 
 }  // namespace steerstat

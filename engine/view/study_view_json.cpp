@@ -13,7 +13,8 @@ using view_json::Json;
 constexpr std::array<std::string_view, 3> source_names{"drawn", "swept", "listed"};
 
 /// The summary, whose cells stand elsewhere.
-Json summary_of(const Summary& summary) {
+Json summary_of(const Summary& summary, const std::optional<std::string>& kept) {
+  if (kept) return Json::parse(*kept);
   Summary without_cells = summary;
   without_cells.cells.clear();
   return Json::parse(summary_json(without_cells));
@@ -120,7 +121,8 @@ Json list_json(const List& list, const Encode& encode) {
 
 }  // namespace
 
-std::string study_view_json(const StudyView& view, const Summary& summary) {
+std::string study_view_json(const StudyView& view, const Summary& summary,
+                            const std::optional<std::string>& kept_summary) {
   const StudyView::CycleCounts& cycles = view.cycles;
   Json json;
   json["view"] = "study";
@@ -129,7 +131,7 @@ std::string study_view_json(const StudyView& view, const Summary& summary) {
   json["spec"] = view.spec;
   json["rows"] = shown_rows_names[static_cast<std::size_t>(view.rows)];
   json["trials"] = {{"requested", summary.requested}, {"finished", summary.completed}, {"used", view.used}};
-  json["summary"] = summary_of(summary);
+  json["summary"] = summary_of(summary, kept_summary);
   json["narrowing"] = narrowing_json(view.narrowing);
   json["distributions"] = list_json(view.distributions, view_json::distribution);
   json["cycles"] = {

@@ -138,9 +138,11 @@ std::vector<fs::path> StudyHome::launched_shards() const {
   }
 }
 
-KeptStudy StudyHome::read(const Study& study, const ShardOrigin& origin) const {
+KeptStudy StudyHome::read(const Study& study, const ShardOrigin& origin,
+                          std::vector<std::vector<double>>* parameters) const {
   if (is_there(result())) {
     StoredStudy stored = read_result(result());
+    if (parameters != nullptr) *parameters = std::move(stored.parameters);
     return {std::move(stored.result), std::move(stored.engine_version)};
   }
   const std::uint64_t trials = Plan(study).trials();

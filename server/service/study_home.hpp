@@ -61,8 +61,10 @@ class StudyHome {
   [[nodiscard]] std::uint64_t launched_trials() const;
 
   /// Every finished trial there is, read without changing anything; what is damaged is passed over.
-  /// @param origin  of its shards
-  [[nodiscard]] KeptStudy read(const Study& study, const ShardOrigin& origin) const;
+  /// @param origin      of its shards
+  /// @param parameters  where there is a result gets its (varying x rows), and else stays as it is; or null
+  [[nodiscard]] KeptStudy read(const Study& study, const ShardOrigin& origin,
+                               std::vector<std::vector<double>>* parameters = nullptr) const;
 
   /// The trials that a run of the study need not run again, those of links to earlier studies' too. Sets aside what is
   /// damaged. @param directory  of this path, the study begun @param tell  gets what was set aside @throws RunFailure

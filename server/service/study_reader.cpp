@@ -74,9 +74,9 @@ std::vector<std::vector<double>> parameters_of(const Plan& plan, std::span<const
 
 }  // namespace
 
-std::shared_ptr<const KeptStudy> StudyReader::opened(const StudyEntry& entry) {
+std::shared_ptr<const KeptStudy> StudyReader::opened(const StudyEntry& entry, Parameters* parameters) {
   const std::uint64_t revision = catalogue_.look(entry, [](const StudyEntry& now) { return now.record.revision; });
-  return opened_.open(entry.id, revision, [&] { return entry.home.read(*entry.study, entry.origin); });
+  return opened_.open(entry.id, revision, [&] { return entry.home.read(*entry.study, entry.origin, parameters); });
 }
 
 /// Looks at the finished trials, wherever they are at the moment.
@@ -119,9 +119,9 @@ std::optional<TrialPage> StudyReader::stored_page(const StudyEntry& entry, const
 }
 
 /// The finished trials as a result. Those of a run under way are copied.
-std::shared_ptr<const KeptStudy> StudyReader::everything(const StudyEntry& entry) {
+std::shared_ptr<const KeptStudy> StudyReader::everything(const StudyEntry& entry, Parameters* parameters) {
   const std::optional<StudyEntry::Run> run = catalogue_.look(entry, [](const StudyEntry& now) { return now.run; });
-  if (!run) return opened(entry);
+  if (!run) return opened(entry, parameters);
   if (run->result) return run->result;
   auto copy = std::make_shared<KeptStudy>();
   copy->engine_version = engine_version();

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "report/comparison.hpp"
 #include "service/catalogue.hpp"
@@ -58,8 +59,14 @@ class StudyReader {
   void look_at(const StudyEntry& entry, const Look& look);
   [[nodiscard]] std::optional<TrialPage> stored_page(const StudyEntry& entry, const Plan& plan,
                                                      const TrialFilter& filter, std::uint64_t begin, std::size_t limit);
-  [[nodiscard]] std::shared_ptr<const KeptStudy> opened(const StudyEntry& entry);
-  [[nodiscard]] std::shared_ptr<const KeptStudy> everything(const StudyEntry& entry);
+  /// (varying x rows) of the inputs that vary.
+  using Parameters = std::vector<std::vector<double>>;
+
+  /// @param parameters  those of the trials, where they are read from the disk with them now; or null
+  [[nodiscard]] std::shared_ptr<const KeptStudy> opened(const StudyEntry& entry, Parameters* parameters = nullptr);
+  [[nodiscard]] std::shared_ptr<const KeptStudy> everything(const StudyEntry& entry, Parameters* parameters = nullptr);
+  /// All finished trials and their parameters, from the disk where both are read now, or else drawn anew.
+  [[nodiscard]] std::shared_ptr<const KeptStudy> everything_drawn(const StudyEntry& entry, Parameters& parameters);
   [[nodiscard]] std::optional<std::string> kept_summary(const StudyEntry& entry) const;
   /// @throws RunFailure where a trial computed again did not end as it is kept
   static void require_same_end(const StudyEntry& entry, std::uint64_t index, const TrialOutcome& now,

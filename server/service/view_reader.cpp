@@ -26,25 +26,49 @@ void require_trials_as_they_come(const StudyEntry& entry) {
       entry.id));
 }
 
+/// What a view needs of a summary whose JSON was kept: none of the statistics, which take longest.
+Summary outline(const Study& study, const StudyResult& result) {
+  Summary summary;
+  summary.requested = Plan(study).trials();
+  summary.completed = result.finished();
+  summary.intervals = study.intervals;
+  return summary;
+}
+
+/// Whether a view takes numbers from a summary that are not shown as the summary's own.
+bool draws_from_summary(const Study& study) {
+  return study.sampling.method == SamplingMethod::sobol_indices || !Plan(study).sweep_values(0).empty();
+}
+
 }  // namespace
+
+std::shared_ptr<const KeptStudy> StudyReader::everything_drawn(const StudyEntry& entry, Parameters& parameters) {
+  std::shared_ptr<const KeptStudy> kept = everything(entry, &parameters);
+  if (parameters.empty()) parameters = drawn_parameters(Plan(*entry.study), kept->result.trials);
+  return kept;
+}
 
 StudyViews::Text StudyReader::study_view(const StudyEntry& entry) {
   const StudyState state = catalogue_.state(entry);
   return views_.view(entry.id, state.revision, state.status == StudyStatus::running, [&] {
-    const std::shared_ptr<const KeptStudy> kept = everything(entry);
-    // The summary takes as long as all the rest: it is made beside it.
-    auto summary = std::async(std::launch::async, [&] { return summarise(*entry.study, kept->result); });
-    const auto parameters = drawn_parameters(Plan(*entry.study), kept->result.trials);
+    Parameters parameters;
+    const std::shared_ptr<const KeptStudy> kept = everything_drawn(entry, parameters);
+    std::optional<std::string> kept_json;
+    if (state.status == StudyStatus::succeeded && !draws_from_summary(*entry.study)) kept_json = kept_summary(entry);
+    // Where no summary was kept, making one takes as long as all the rest: it is made beside it.
+    auto summary = std::async(std::launch::async, [&] {
+      return kept_json ? outline(*entry.study, kept->result) : summarise(*entry.study, kept->result);
+    });
     const StudyView view = steerstat::study_view({*entry.study, kept->result, parameters}, {state.created});
-    return study_view_json(view, summary.get());
+    return study_view_json(view, summary.get(), kept_json);
   });
 }
 
 std::string StudyReader::success_map(const StudyEntry& entry, std::string_view x, std::string_view y) {
   require_trials_as_they_come(entry);
   const std::lock_guard lock(comparing_);
-  const std::shared_ptr<const KeptStudy> kept = everything(entry);
-  const auto parameters = drawn_parameters(Plan(*entry.study), kept->result.trials);
+  Parameters parameters;
+  const std::shared_ptr<const KeptStudy> kept = everything_drawn(entry, parameters);
   return success_map_json(steerstat::success_map({*entry.study, kept->result, parameters}, x, y));
 }
 

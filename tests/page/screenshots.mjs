@@ -1,17 +1,19 @@
 // Takes a picture of every view in light and dark, 1280 x 720 and 390 pixels wide, of the real service's own studies:
 //
-//   STEERSTAT=build/ci/steerstat node screenshots.mjs DIRECTORY [PART-OF-A-NAME...]
+//   STEERSTAT=build/ci/steerstat node screenshots.mjs DIRECTORY [--vision DEFICIENCY] [PART-OF-A-NAME...]
 //
-// Whoever changes the page opens them. A picture is the whole length of its view, and named VIEW-THEME-WIDTH.png.
+// Whoever changes the page opens them. A picture is the whole length of its view, and named VIEW-THEME-WIDTH.png. With
+// --vision protanopia, deuteranopia, tritanopia or achromatopsia it is what readers with that colour vision see.
 import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
+import { parseArgs } from "node:util";
 import { launch, openPage } from "./browser.mjs";
 import { Service, runProgram } from "./service.mjs";
 
-const [directory, ...wanted] = process.argv.slice(2);
-if (!directory) throw new Error("say where the pictures go: node screenshots.mjs DIRECTORY [PART-OF-A-NAME...]");
+const { values: { vision }, positionals: [directory, ...wanted] } = parseArgs({ allowPositionals: true, options: { vision: { type: "string", default: "none" } } });
+if (!directory) throw new Error("say where the pictures go: node screenshots.mjs DIRECTORY [--vision DEFICIENCY] [PART-OF-A-NAME...]");
 const specs = process.env.SPECS ?? join(dirname(fileURLToPath(import.meta.url)), "../../studies/specs");
 const shipped = (name) => JSON.parse(readFileSync(join(specs, `${name}.json`), "utf8"));
 const trials = (spec, count) => ({ ...spec, sampling: { ...spec.sampling, trials: count } });
@@ -30,6 +32,7 @@ async function picture(name, address, sign, prepare = async () => {}, finish = a
     for (const [width, height] of [[1280, 720], [390, 844]]) {
       const { page, context, faults } = await openPage(browser, { colorScheme, viewport: { width, height }, hasTouch: width < 600, isMobile: width < 600 });
       try {
+        await (await context.newCDPSession(page)).send("Emulation.setEmulatedVisionDeficiency", { type: vision });
         await page.goto(address.startsWith("file:") ? address : service.url + address);
         await page.locator(sign).first().waitFor();
         await prepare(page);
@@ -44,6 +47,16 @@ async function picture(name, address, sign, prepare = async () => {}, finish = a
       await finish();
     }
   }
+}
+
+/** Points at a chart, and clicks on what is there. */
+async function hover(page, charts, k, isClicked = false) {
+  const over = page.locator(charts).nth(k);
+  await over.scrollIntoViewIfNeeded();
+  const { width, height } = await over.boundingBox();
+  const position = { x: 0.35 * width, y: 0.4 * height };
+  await (isClicked ? over.click({ position }) : over.hover({ position }));
+  if (isClicked) await page.locator(".look a").first().waitFor();
 }
 
 async function submit(spec) {
@@ -72,6 +85,7 @@ try {
   const stopped = await service.run({ ...combined, name: "stopped", sampling: { ...combined.sampling, trials: 20_000 }, stop: { min_trials: 1000, check_every: 500, until: [{ metric: "success_rate", half_width: 0.03 }, { metric: "settling_time", quantile: 0.95, relative_half_width: 0.2 }] } });
   const sobol = await service.run({ ...trials(shipped("robustness/sensitivity"), 400), name: "sobol indices" });
   const listed = await service.run({ name: "listed", sampling: { method: "explicit", trials: [0.6, 0.8, 1, 1.2, 1.4].flatMap((m1) => [0, 0.02, 0.04].map((f2) => ({ "plant.m1": m1, "plant.f2": f2 }))) } });
+  const dense = await service.run({ ...trials(shipped("parameter/eta"), 20), name: "many cells", controller: { contraction: { eta1: { sweep: Array.from({ length: 15 }, (_, k) => 0.3 + 0.03 * k) }, eta2: { sweep: Array.from({ length: 15 }, (_, k) => 0.4 + 0.03 * k) } }, swing: { period: { sweep: [1.5, 2] } } } });
   const robust = await service.run({ ...trials(combined, 100), name: "robust", controller: { policy: "robust" } });
   const paper = await service.run(shipped("paper/friction"));
   const view = await service.get(`v1/studies/${small}/view`);
@@ -100,6 +114,17 @@ try {
   await picture("overview-swept", `#/studies/${swept}`, ".heat", async (page) => {
     await page.getByRole("group", { name: /Heat map/ }).focus();
     for (const key of ["ArrowRight", "ArrowDown"]) await page.keyboard.press(key);
+  });
+  await picture("overview-swept-time", `#/studies/${swept}`, ".heat", (page) => page.getByRole("button", { name: "Settling time" }).click());
+  await picture("overview-dense", `#/studies/${dense}`, ".heat", (page) => page.locator(".heat tbody td").nth(100).hover());
+  for (const [k, name] of ["narrowing", "distribution", "cycles"].entries()) await picture(`hover-${name}`, `#/studies/${small}`, chart, (page) => hover(page, ".overview .u-over", k));
+  await picture("hover-map", `#/studies/${many}/why`, ".map-card canvas", (page) => hover(page, ".map-card .u-over", 0, true));
+  await picture("hover-marginal", `#/studies/${small}/why`, ".small-multiples canvas", (page) => hover(page, ".small-multiples .u-over", 2));
+  await picture("hover-trial", `#/studies/${small}/trials/${converged}`, ".figure-card canvas", (page) => hover(page, ".figure-card .u-over", 1));
+  await picture("heavy-tail", `#/studies/${many}`, chart, (page) => page.getByLabel("Metric").selectOption("effort"));
+  await picture("focus-map", `#/studies/${small}/why`, ".map-card canvas", async (page) => {
+    await page.locator(".plane-keys").focus();
+    for (let k = 0; k < 60; ++k) await page.keyboard.press("ArrowRight");
   });
   await picture("overview-gated", `#/studies/${gated}`, ".gates");
   await picture("overview-failing", `#/studies/${failing}`, ".gates");

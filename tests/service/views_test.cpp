@@ -2,6 +2,7 @@
 #include "json_text.hpp"
 #include "report/summary.hpp"
 #include "service_fixture.hpp"
+#include "view/study_view.hpp"
 #include "view/success_map.hpp"
 
 namespace steerstat::testing {
@@ -23,6 +24,23 @@ TEST_F(Views, OfAStudySayWhatItsSummarySays) {
   EXPECT_EQ(service->study_view(id), text) << "it is kept, not made again";
   restart();
   EXPECT_EQ(*service->study_view(id), *text);
+}
+
+TEST_F(Views, OfAStudyReadBackAreThoseOfItsSummaryMadeAndItsParametersDrawnAnew) {
+  for (const char* more : {"", R"(, "controller": {"contraction": {"eta2": {"sweep": [0.5, 0.6]}}})"}) {
+    const std::string spec = quick_spec(200, 3, more);
+    const std::string id = service->submit(spec).state.id;
+    const StudyState state = wait_for(id, StudyStatus::succeeded);
+    restart();
+    const StoredStudy stored = read_result(data / "studies" / id / "results.h5");
+    const auto parameters = drawn_parameters(Plan(stored.study), stored.result.trials);
+    const Summary summary = summarise(stored.study, stored.result);
+    const StudyView view = study_view({stored.study, stored.result, parameters}, {state.created});
+    EXPECT_EQ(*service->study_view(id), study_view_json(view, summary)) << more;
+    restart();
+    EXPECT_EQ(service->success_map(id, "plant.m1", "plant.f2"),
+              success_map_json(success_map({stored.study, stored.result, parameters}, "plant.m1", "plant.f2")));
+  }
 }
 
 TEST_F(Views, OfARunningStudyAreOfItsFinishedTrials) {

@@ -117,7 +117,7 @@ export function axis(palette: Palette, side: "bottom" | "left", { label, size, v
     labelFont: font,
     labelSize: 20,
     labelGap: 2,
-    size: size ?? (side === "bottom" ? 32 : 54),
+    size: side === "bottom" ? (size ?? 32) : (u, texts) => Math.max(size ?? 54, 12 + widest(u, texts ?? [])),
     gap: 4,
     space: space ?? (side === "bottom" ? 64 : 32),
     grid: { show: grid, stroke: palette.line, width: 1 },
@@ -128,6 +128,15 @@ export function axis(palette: Palette, side: "bottom" | "left", { label, size, v
     ...(splits === undefined ? {} : { splits }),
     ...(filter === undefined ? {} : { filter }),
   };
+}
+
+/** Width of the widest of some texts in an axis's font [CSS pixels]. */
+function widest(u: uPlot, texts: readonly (string | null)[]): number {
+  u.ctx.save();
+  u.ctx.font = font;
+  const width = texts.reduce((most, text) => Math.max(most, u.ctx.measureText(text ?? "").width), 0);
+  u.ctx.restore();
+  return Math.ceil(width);
 }
 
 export const percentTicks = (values: number[]) => values.map((value) => (value === null ? "" : `${number(100 * value, 3)} %`));

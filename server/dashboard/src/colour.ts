@@ -1,14 +1,24 @@
-// Colours of a success rate: from orange (none) over grey to blue (all), which are told apart with every kind of colour
-// vision, mixed in Oklab, so that equal steps look equal [Ottosson 2020].
+// Colours of a success rate: from orange (none) over grey to blue (all), each step lighter than the one before, or each
+// darker, so that they are told apart with every kind of colour vision; mixed in Oklab, so that equal steps look equal
+// [Ottosson 2020].
 
 type Triple = [number, number, number];
 
-const toLinear = (c: number) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
-const toGamma = (c: number) => (c <= 0.0031308 ? 12.92 * c : 1.055 * c ** (1 / 2.4) - 0.055);
+const withoutGamma = (c: number) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
+const withGamma = (c: number) => (c <= 0.0031308 ? 12.92 * c : 1.055 * c ** (1 / 2.4) - 0.055);
+
+/** Red, green and blue as they add up. @param hex  "#rrggbb" */
+export const toLinear = (hex: string) => [1, 3, 5].map((at) => withoutGamma(parseInt(hex.slice(at, at + 2), 16) / 255)) as Triple;
+
+/** What lies outside the screen's colours is brought to their edge. */
+export function fromLinear(linear: Triple): string {
+  const byte = (c: number) => Math.round(255 * Math.min(1, Math.max(0, withGamma(c)))).toString(16).padStart(2, "0");
+  return `#${linear.map(byte).join("")}`;
+}
 
 /** @param hex  "#rrggbb" */
 export function toOklab(hex: string): Triple {
-  const [r, g, b] = [1, 3, 5].map((at) => toLinear(parseInt(hex.slice(at, at + 2), 16) / 255)) as Triple;
+  const [r, g, b] = toLinear(hex);
   const l = Math.cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
   const m = Math.cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
   const s = Math.cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
@@ -23,13 +33,11 @@ export function fromOklab([L, a, b]: Triple): string {
   const l = (L + 0.3963377774 * a + 0.2158037573 * b) ** 3;
   const m = (L - 0.1055613458 * a - 0.0638541728 * b) ** 3;
   const s = (L - 0.0894841775 * a - 1.291485548 * b) ** 3;
-  const linear = [
+  return fromLinear([
     4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s,
     -1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s,
     -0.0041960863 * l - 0.7034186147 * m + 1.707614701 * s,
-  ];
-  const byte = (c: number) => Math.round(255 * Math.min(1, Math.max(0, toGamma(c)))).toString(16).padStart(2, "0");
-  return `#${linear.map(byte).join("")}`;
+  ]);
 }
 
 /** Colours of a rate in [0, 1], in 101 steps. @param stops  of 0, 1/2 and 1 */
@@ -44,7 +52,7 @@ export function rateColours(stops: readonly [string, string, string]): (rate: nu
 
 /** Black or white, whichever reads better on it: with a contrast of 4.5 at least, on any colour. */
 export function textOn(hex: string): "#000000" | "#ffffff" {
-  const [r, g, b] = [1, 3, 5].map((at) => toLinear(parseInt(hex.slice(at, at + 2), 16) / 255)) as Triple;
+  const [r, g, b] = toLinear(hex);
   const luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b; // as WCAG has it
   return luminance > 0.179 ? "#000000" : "#ffffff";
 }

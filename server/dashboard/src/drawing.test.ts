@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { fromOklab, rateColours, textOn, toOklab } from "./colour";
 import { logSplits, logTickTexts } from "./log_axis";
-import { symbol } from "./names";
+import { prose, symbol } from "./names";
 import { readProblem } from "./problem";
 import { trajectoryCsv } from "./trajectory_csv";
 
@@ -28,11 +28,23 @@ describe("log axes", () => {
     expect(logTickTexts(logSplits(8, 120)).filter((text) => text !== "")).toEqual(["10", "100"]);
     expect(logTickTexts(logSplits(25, 420)).filter((text) => text !== "")).toEqual(["50", "100", "200"]);
   });
+  it("are brief about what is far from 1, so that the ticks of many decades stand side by side", () => {
+    const texts = (low: number, high: number) => logTickTexts(logSplits(low, high)).filter((text) => text !== "");
+    expect(texts(1, 1e6)).toEqual(["1", "10", "100", "1,000", "10⁴", "10⁵", "10⁶"]);
+    expect(texts(1e-4, 1e-2)).toEqual(["10⁻⁴", "0.001", "0.01"]);
+  });
 });
 
 describe("names", () => {
   it("are the paper's where it has one", () => {
     expect(["plant.f2", "initial_state.q2_dot", "controller.contraction.eta1", "sensor.bias.q1", "controller.swing.period"].map(symbol)).toEqual(["f₂", "q̇₂(0)", "η₁", "q₁ bias", "swing period"]);
+  });
+});
+
+describe("what the schema says", () => {
+  it("is printed with the paper's symbols, and powers that are raised", () => {
+    expect(prose("At least 5e-4 from pi/2: |sin 2 q2| >= 1e-3, q1_dot <= 2")).toBe("At least 5×10⁻⁴ from π/2: |sin 2 q₂| ≥ 10⁻³, q̇₁ ≤ 2");
+    expect(prose("the default with `stop`")).toBe("the default with “stop”");
   });
 });
 

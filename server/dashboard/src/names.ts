@@ -1,6 +1,7 @@
 // What the paper calls things, and what the schema says of them.
 import schema from "../../../schemas/study.schema.json";
 import type { PhaseKind, Status } from "./documents";
+import { powerOfTen } from "./numbers";
 
 const symbols: Record<string, string> = {
   m1: "m₁", m2: "m₂", d2: "d₂", I2: "I₂", f1: "f₁", f2: "f₂",
@@ -30,11 +31,23 @@ interface Described {
   properties?: Record<string, Described>;
 }
 
+/** What the schema says in plain text, as it is printed: the paper's symbols, powers raised. */
+export function prose(text: string): string {
+  return text
+    .replace(/\bq([12])(_dot)?\b/g, (_whole, joint: string, dot?: string) => symbols[`q${joint}${dot ?? ""}`] ?? "")
+    .replace(/\bpi\b/g, "π")
+    .replace(/>=/g, "≥")
+    .replace(/<=/g, "≤")
+    .replace(/\b1e(-?\d+)\b/g, (_whole, power: string) => powerOfTen(Number(power)))
+    .replace(/\b(\d+)e(-?\d+)\b/g, (_whole, digits: string, power: string) => `${digits}×${powerOfTen(Number(power))}`)
+    .replace(/`([^`]*)`/g, "“$1”");
+}
+
 /** What the schema says of an input, without its unit; empty where it says nothing. */
 export function meaning(input: string): string {
   let place: Described | undefined = schema as Described;
   for (const part of input.split(".")) place = place?.properties?.[part];
-  return (place?.description ?? "").replace(/^\[[^\]]*\] */, "");
+  return prose((place?.description ?? "").replace(/^\[[^\]]*\] */, ""));
 }
 
 export const statusWords: Record<Status, string> = {

@@ -38,6 +38,10 @@ describe("durations and counts", () => {
     expect(duration(0.4)).toBe("under 1 s");
     expect(duration(59.4)).toBe("59 s");
     expect(duration(200)).toBe("3 min 20 s");
+    expect(duration(599)).toBe("9 min 59 s");
+    expect(duration(1058)).toBe("18 min");
+    expect(duration(3569)).toBe("59 min");
+    expect(duration(3570)).toBe("1 h 0 min");
     expect(duration(3900)).toBe("1 h 5 min");
     expect(duration(null)).toBe("–");
     expect(count(1234567)).toBe("1,234,567");

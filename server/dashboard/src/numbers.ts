@@ -17,6 +17,9 @@ export function count(value: number): string {
 /** "1 trial", "2,000 trials". */
 export const counted = (value: number, what: string) => `${count(value)} ${what}${value === 1 ? "" : "s"}`;
 
+/** "10⁻⁴". */
+export const powerOfTen = (exponent: number) => `10${[...String(exponent)].map((character) => superscripts[character] ?? "").join("")}`;
+
 /** To so many significant digits, without zeros at the end. */
 export function number(value: number | null | undefined, digits = 4): string {
   if (value === null || value === undefined || Number.isNaN(value)) return none;
@@ -25,8 +28,7 @@ export function number(value: number | null | undefined, digits = 4): string {
   const magnitude = Math.floor(Math.log10(Math.abs(value)));
   if (magnitude >= 6 || magnitude < -3) {
     const [mantissa = "", exponent = ""] = value.toExponential(digits - 1).split("e");
-    const power = [...String(Number(exponent))].map((character) => superscripts[character] ?? "").join("");
-    return `${signed(withoutZeros(mantissa))}×10${power}`;
+    return `${signed(withoutZeros(mantissa))}×${powerOfTen(Number(exponent))}`;
   }
   const [whole = "", fraction] = withoutZeros(value.toFixed(Math.max(0, digits - 1 - magnitude))).split(".");
   return signed(grouped(whole) + (fraction === undefined ? "" : `.${fraction}`));
@@ -62,14 +64,15 @@ const digitsOf = (low: number | null, high: number | null) => {
 export const quantity = (value: number | null, unit: string, digits = 4) =>
   value === null || unit === "1" ? number(value, digits) : `${number(value, digits)} ${unit}`;
 
-/** Seconds, for people: "12 s", "3 min 20 s", "1 h 5 min". */
+/** Seconds, for people: "12 s", "3 min 20 s", "18 min", "1 h 5 min". */
 export function duration(seconds: number | null | undefined): string {
   if (seconds === null || seconds === undefined || !Number.isFinite(seconds)) return none;
   if (seconds < 1) return "under 1 s";
   const whole = Math.round(seconds);
   if (whole < 60) return `${whole} s`;
-  if (whole < 3600) return `${Math.floor(whole / 60)} min ${whole % 60} s`;
-  return `${grouped(String(Math.floor(whole / 3600)))} h ${Math.floor((whole % 3600) / 60)} min`;
+  if (whole < 600) return `${Math.floor(whole / 60)} min ${whole % 60} s`;
+  const minutes = Math.round(whole / 60);
+  return minutes < 60 ? `${minutes} min` : `${grouped(String(Math.floor(minutes / 60)))} h ${minutes % 60} min`;
 }
 
 /** How long ago, for people; the exact time is for the title. */

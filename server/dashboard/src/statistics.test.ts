@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import type { Axis, MapView } from "./documents";
 import { transpose } from "./source";
-import { binOf, binPlane, coarser, interpolate, lastAtOrBelow, wilson } from "./statistics";
+import { binOf, binPlane, coarser, cycleRange, interpolate, lastAtOrBelow, wilson } from "./statistics";
 
 const edges = (values: number[]): Axis => ({ input: "plant.m1", unit: "kg", edges: values, levels: null });
 const levels = (values: number[]): Axis => ({ input: "plant.m1", unit: "kg", edges: null, levels: values });
@@ -63,5 +63,13 @@ describe("curves", () => {
     expect(interpolate([0, 1, 1, 2], [0, 0, 5, 5], 1)).toBe(5);
     expect(lastAtOrBelow([0, 1, 1, 2], 1)).toBe(2);
     expect(lastAtOrBelow([1, 2], 0)).toBe(0);
+  });
+});
+
+describe("bars of cycles", () => {
+  it("have room around few numbers, and none below 0", () => {
+    expect(cycleRange(7, 7)).toEqual([3.5, 10.5]);
+    expect(cycleRange(0, 1)).toEqual([-0.5, 6.5]);
+    expect(cycleRange(3, 30)).toEqual([2.5, 30.5]);
   });
 });

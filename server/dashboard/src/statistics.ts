@@ -91,3 +91,9 @@ export function interpolate(xs: readonly number[], ys: readonly number[], x: num
   const share = x1 > x0 ? Math.min(1, Math.max(0, (x - x0) / (x1 - x0))) : 0;
   return y0 + share * (y1 - y0);
 }
+
+/** Where an axis of cycles begins and ends: around few numbers of cycles there is room, so that their bars stay bars. */
+export function cycleRange(least: number, most: number): [number, number] {
+  const first = Math.max(0, least - Math.max(0, Math.ceil((6 - (most - least)) / 2)));
+  return [first - 0.5, Math.max(most, first + 6) + 0.5];
+}

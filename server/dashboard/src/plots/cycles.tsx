@@ -3,6 +3,7 @@ import { useMemo } from "preact/hooks";
 import { Chart, axis, drawInside } from "../chart";
 import type { StudyView } from "../documents";
 import { count } from "../numbers";
+import { cycleRange } from "../statistics";
 
 /** Trials by their number of contraction cycles, those that converged below the others. */
 export function Cycles({ cycles }: { cycles: StudyView["cycles"] }) {
@@ -11,8 +12,7 @@ export function Cycles({ cycles }: { cycles: StudyView["cycles"] }) {
     cycles.converged.map((n, k) => n + (cycles.others[k] ?? 0)),
   ], [cycles]);
   const most = Math.max(1, ...(data[1] as number[]));
-  const first = (cycles.from[0] ?? 0) - 0.5;
-  const last = (cycles.to[cycles.to.length - 1] ?? 0) + 0.5;
+  const [first, last] = cycleRange(cycles.from[0] ?? 0, cycles.to[cycles.to.length - 1] ?? 0);
   return (
     <Chart
       label={`Trials by contraction cycles, from ${cycles.from[0] ?? 0} to ${cycles.to[cycles.to.length - 1] ?? 0}`}
@@ -25,7 +25,7 @@ export function Cycles({ cycles }: { cycles: StudyView["cycles"] }) {
         scales: { x: { time: false, range: [first, last] }, y: { range: [0, 1.05 * most] } },
         axes: [
           axis(palette, "bottom", { label: "contraction cycles", grid: false, values: (ticks) => ticks.map((tick) => (Number.isInteger(tick) ? count(tick) : "")) }),
-          axis(palette, "left", { values: (ticks) => ticks.map((tick) => (Number.isInteger(tick) ? count(tick) : "")) }),
+          axis(palette, "left", { label: "trials", values: (ticks) => ticks.map((tick) => (Number.isInteger(tick) ? count(tick) : "")) }),
         ],
         series: [{}, { stroke: "transparent", points: { show: false } }],
         hooks: {

@@ -37,7 +37,7 @@ export function DistributionPlot({ distribution, height = 260 }: { distribution:
         legend: { show: false },
         cursor: { drag: { x: false, y: false }, points: { show: false } },
         scales: { x: { time: false, distr: isLog ? 3 : 1 }, y: { range: [0, 1] } },
-        axes: [axis(palette, "bottom", { label: axisLabel(name, unit), ...(isLog ? logTicks : {}) }), axis(palette, "left", { values: percentTicks })],
+        axes: [axis(palette, "bottom", { label: axisLabel(name, unit), ...(isLog ? logTicks : {}) }), axis(palette, "left", { label: "share of trials", values: percentTicks })],
         bands: band ? [{ series: [1, 2], fill: faded(palette.accent, 0.18) }] : [],
         series: [
           {},
@@ -96,7 +96,7 @@ export function TwoDistributions({ a, b, names }: { a: Distribution; b: Distribu
           legend: { show: false },
           cursor: { drag: { x: false, y: false }, points: { show: false } },
           scales: { x: { time: false }, y: { range: [0, 1] } },
-          axes: [axis(palette, "bottom", { label: axisLabel("settling time", unit) }), axis(palette, "left", { values: percentTicks })],
+          axes: [axis(palette, "bottom", { label: axisLabel("settling time", unit) }), axis(palette, "left", { label: "share of trials", values: percentTicks })],
           series: [
             {},
             { stroke: palette.accent, width: 2, paths: stepped, spanGaps: true, points: { show: a.x.length === 1 } },

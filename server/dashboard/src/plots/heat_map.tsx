@@ -5,6 +5,7 @@ import { inputLabel, symbol, unitText } from "../names";
 import { count, number, percentOf, percentRange, quantity } from "../numbers";
 import { Card, Choice, Empty, Select } from "../parts";
 import { useTheme } from "../theme";
+import { RateLegend } from "./rate_legend";
 
 type Sweeps = NonNullable<StudyView["sweeps"]>;
 
@@ -126,6 +127,7 @@ export function HeatMap({ sweeps }: { sweeps: Sweeps }) {
           </tfoot>
         </table>
       </div>
+      {shown === "rate" ? <RateLegend /> : times.length > 0 && <RateLegend worst={quantity(greatest, "s", 3)} best={`${quantity(least, "s", 3)} to the goal`} />}
       <p class="look" aria-live="polite">
         {look && looked !== null ? (
           <>

@@ -22,7 +22,7 @@ export function Narrowing({ view }: { view: StudyView }) {
         scales: { x: { time: false, distr: isLog ? 3 : 1, range: [narrowing.trials[0] ?? 1, Math.max(2, narrowing.trials[last] ?? 2)] }, y: { range: [0, 1] } },
         axes: [
           axis(palette, "bottom", { label: "trials", ...(isLog ? logTicks : {}) }),
-          axis(palette, "left", { values: percentTicks }),
+          axis(palette, "left", { label: "success rate", values: percentTicks }),
         ],
         bands: [{ series: [1, 2], fill: faded(palette.accent, 0.2) }],
         series: [

@@ -1,7 +1,7 @@
 import uPlot from "uplot";
 import { useEffect, useMemo, useRef } from "preact/hooks";
 import { Chart, axis, drawInside, faded, ratio } from "../chart";
-import type { TrialView } from "../documents";
+import type { PhaseKind, TrialView } from "../documents";
 import type { Player } from "../player";
 import { turns } from "./time_series";
 import { stateAt } from "./robot";
@@ -14,6 +14,9 @@ export function speedRange(speeds: readonly number[]): [number, number] {
   const most: [number, number] = [Math.min(0, at(0.01)), Math.max(0, at(0.99))];
   return whole[1] - whole[0] > 5 * (most[1] - most[0]) ? most : whole;
 }
+
+/** Of phases that colour alone would tell apart. */
+const phaseDash: Partial<Record<PhaseKind, readonly number[]>> = { drift: [2, 3], swing: [7, 3] };
 
 /** Angle and velocity of the passive joint, with the set from which a contraction cycle may begin. */
 export function PhasePlane({ view, player, height }: { view: TrialView; player: Player; height: number }) {
@@ -90,15 +93,17 @@ export function PhasePlane({ view, player, height }: { view: TrialView; player: 
                 }
                 context.lineJoin = "round";
                 context.lineWidth = 1.75 * ratio();
-                const draw = (first: number, last: number, colour: string) => {
+                const draw = (first: number, last: number, colour: string, dash: readonly number[] = []) => {
                   context.strokeStyle = colour;
+                  context.setLineDash(dash.map((length) => length * ratio()));
                   context.beginPath();
                   for (let k = first; k <= last; ++k) context.lineTo(x(trajectory.q2[k] ?? 0), y(trajectory.q2_dot[k] ?? 0));
                   context.stroke();
                 };
-                phases.kind.forEach((kind, k) => draw(phases.first[k] ?? 0, phases.last[k] ?? 0, palette.phase[kind]));
+                phases.kind.forEach((kind, k) => draw(phases.first[k] ?? 0, phases.last[k] ?? 0, palette.phase[kind], phaseDash[kind]));
                 const listed = phases.last[phases.last.length - 1] ?? 0;
                 if (listed < trajectory.t.length - 1) draw(listed, trajectory.t.length - 1, palette.muted);
+                context.setLineDash([]);
                 context.strokeStyle = palette.second;
                 context.lineWidth = 2 * ratio();
                 for (const goal of turns(set.q2_goal, [...xs])) {

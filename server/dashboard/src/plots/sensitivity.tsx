@@ -40,10 +40,11 @@ export function SensitivityBars({ sensitivity, used }: {
               <tr key={`${bar.input} ${row.name}`} class={k > 0 ? "second" : ""}>
                 <th scope="row"><span class={k === 0 ? "" : "unseen"} title={bar.input}>{symbol(bar.input)}</span>{bar.rows.length > 1 && <span class="muted small bar-kind"> {row.name}</span>}</th>
                 <td><IndexBar value={row.value} low={row.low} high={row.high} /></td>
-                <td class="right">{row.value === null ? none : fixed(row.value)}</td>
+                <td class="right" title={row.low === null || row.high === null ? undefined : `${number(100 * level)} % interval ${fixed(row.low)} to ${fixed(row.high)}`}>{row.value === null ? none : fixed(row.value)}</td>
               </tr>
             )))}
           </tbody>
+          <tfoot aria-hidden="true"><tr><td /><td><span class="bar-scale"><span>0</span><span>0.5</span><span>1</span></span></td><td /></tr></tfoot>
         </table>
       )}
     </Card>

@@ -72,12 +72,13 @@ function StepIcon({ isForward = false }: { isForward?: boolean }) {
   );
 }
 
-export function PhaseLegend({ view }: { view: TrialView }) {
+export function PhaseLegend({ view, reference }: { view: TrialView; reference?: string | undefined }) {
   return (
     <p class="legend phase-legend">
       {phaseKinds.filter((kind) => view.phases.kind.includes(kind)).map((kind) => (
         <span key={kind}><span class={`swatch phase-${kind}`} aria-hidden="true">{phaseShort[kind][1]}</span> {phaseWords[kind]}</span>
       ))}
+      {reference !== undefined && <span><span class="line-sample dashed" aria-hidden="true" /> {reference}</span>}
     </p>
   );
 }

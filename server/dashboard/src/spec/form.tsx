@@ -6,6 +6,7 @@ import { GatesEditor } from "./gates_editor";
 import { GoalsEditor } from "./goals_editor";
 import { ListedEditor } from "./listed_editor";
 import { type Edited, FieldEditor, Mistakes, ReadInput, mistakesAt } from "./inputs";
+import { prose } from "../names";
 import { type Path, isObject, isWithin } from "./pointer";
 import { parseNumber } from "./value";
 
@@ -48,7 +49,7 @@ function FormSection({ path, title, description, isOpen, edited, children }: { p
   return (
     <details class="form-section" open={isOpen || size > 0 || mistakes.length > 0}>
       <summary><span>{title}</span>{size > 0 && <span class="badge">{size} set</span>}{mistakes.length > 0 && <span class="badge wrong">{mistakes.length} wrong</span>}</summary>
-      <p class="note">{description}</p>
+      <p class="note">{prose(description)}</p>
       {children}
     </details>
   );

@@ -1,6 +1,6 @@
 import { useEffect, useId, useState } from "preact/hooks";
 import type { ComponentChildren } from "preact";
-import { symbol, unitText } from "../names";
+import { prose, symbol, unitText } from "../names";
 import { number } from "../numbers";
 import type { Mistake } from "../problem";
 import type { Field } from "./fields";
@@ -80,7 +80,9 @@ export function FieldEditor({ field, edited, name }: { field: Field; edited: Edi
   const mistakes = mistakesAt(edited.mistakes, field.path);
   const described = mistakes.length > 0 ? id : undefined;
   const input = field.path.join(".");
-  const title = name ?? (field.kind === "value" || ["nominal", "goal"].includes(field.path[0] ?? "") ? symbol(input.replace(/^nominal/, "plant").replace(/^goal/, "plant")) : words(field.path));
+  const title = name ?? capitalised(field.kind === "value" || ["nominal", "goal"].includes(field.path[0] ?? "") ? symbol(input.replace(/^nominal/, "plant").replace(/^goal/, "plant")) : words(field.path));
+  const hint = prose(field.description).replace(/\.$/, "");
+  const isLong = hint.length > 150; // more than stands beside one line of fields
   const invalid = mistakes.length > 0;
   const set = (next: Json | undefined) => edited.set(field.path, next);
   const placeholder = field.default === undefined ? "" : typeof field.default === "number" ? number(field.default, 6) : plainText(field.default);
@@ -113,17 +115,21 @@ export function FieldEditor({ field, edited, name }: { field: Field; edited: Edi
   }
   return (
     <div class={`field ${invalid ? "wrong" : ""} ${value !== undefined ? "is-set" : ""}`} data-pointer={toPointer(field.path)}>
-      <div class="field-name" title={field.description}>
+      <div class="field-name" title={hint}>
         <span>{title}{field.unit !== "1" && <span class="muted"> [{unitText(field.unit)}]</span>}</span>
-        <span class="field-hint">{field.description.replace(/\.$/, "")}</span>
+        {!isLong && <span class="field-hint">{hint}</span>}
       </div>
       <div class="field-control">{control}</div>
+      {isLong && <p class="field-hint long">{hint}</p>}
       <Mistakes mistakes={mistakes} id={id} />
     </div>
   );
 }
 
-const words = (path: Path) => path.slice(1).join(" ").replace(/_/g, " ") || (path[0] ?? "").replace(/_/g, " ");
+/** With a capital where it is words, and no symbol. */
+const capitalised = (title: string) => (/^[a-z]{4}|^[a-z]{3} /.test(title) ? `${title[0]?.toUpperCase()}${title.slice(1)}` : title);
+
+const words = (path: Path) => path.slice(1).filter((part) => part !== "trajectories").join(" ").replace(/_/g, " ") || (path[0] ?? "").replace(/_/g, " ");
 
 function ValueEditor({ field, value, onValue, title, isInvalid, describedBy }: {
   field: Field;

@@ -26,10 +26,10 @@ export function locate(text: string): Located {
   };
   const string = (): string => {
     const begin = at;
-    if (text[at] !== '"') fail(`expected " before ${shown()}`);
+    if (text[at] !== '"') fail(`expected a string in quotes before ${shown()}`);
     at += 1;
     while (text[at] !== '"') {
-      if (at >= text.length || text[at] === "\n") fail('a string without its closing "');
+      if (at >= text.length || text[at] === "\n") fail("a string without its closing quote");
       at += text[at] === "\\" ? 2 : 1;
     }
     at += 1;

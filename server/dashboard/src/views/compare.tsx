@@ -1,7 +1,7 @@
 import { useMemo, useState } from "preact/hooks";
 import { type ComparisonView, type Status, type StudyState, statuses } from "../documents";
 import { statusWords, symbol, unitText } from "../names";
-import { count, none, number, percent, percentRange } from "../numbers";
+import { count, none, number, percent, percentOf, percentRange } from "../numbers";
 import { useDocument, usePage } from "../page_context";
 import { BreakingCode, Card, Empty, Figure, Select, Shown, StatusMark, StatusName } from "../parts";
 import { TwoDistributions, DistributionPlot } from "../plots/distribution";
@@ -73,11 +73,11 @@ function Comparison({ view }: { view: ComparisonView }) {
         <div class="problem mild wide"><strong>Know first</strong><ul>{comparison.warnings.map((warning) => <li key={warning}>{warning}</li>)}</ul></div>
       )}
       <Card title="Success rate" note={`Of ${count(pairs.total)} pairs of trials with the same draws.`}>
-        <p class="big">{points(rate.difference.estimate)}<span class="big-note"> percentage points, B less A</span></p>
+        <p class="big">{points(rate.difference.estimate, rate.difference.ci_low, rate.difference.ci_high)}<span class="big-note"> percentage points, B less A</span></p>
         <p class="interval">{rate.difference.ci_low === null ? "no interval over several cells together" : `${signedRange(rate.difference.ci_low, rate.difference.ci_high).replace(" %", "")} · ${number(100 * rate.difference.level)} % interval (Tango)`}</p>
         <dl class="figures">
-          <Figure name="A"><a href={studyLink(comparison.a.id)}>{percent(rate.a, 2)}</a></Figure>
-          <Figure name="B"><a href={studyLink(comparison.b.id)}>{percent(rate.b, 2)}</a></Figure>
+          <Figure name="A"><a href={studyLink(comparison.a.id)}>{percentOf(rate.a, rate.difference.ci_low, rate.difference.ci_high)}</a></Figure>
+          <Figure name="B"><a href={studyLink(comparison.b.id)}>{percentOf(rate.b, rate.difference.ci_low, rate.difference.ci_high)}</a></Figure>
           <Figure name="McNemar's exact p">{mcnemar ? pValue(mcnemar.p_value) : none}</Figure>
           {mcnemar && mcnemar.holm_p_value !== null && <Figure name="Holm">{pValue(mcnemar.holm_p_value)}</Figure>}
         </dl>
@@ -105,8 +105,9 @@ function Comparison({ view }: { view: ComparisonView }) {
   );
 }
 
-const signedPercent = (share: number | null) => (share === null ? none : `${share > 0 ? "+" : ""}${percent(share, 2)}`);
-const points = (share: number | null) => signedPercent(share).replace(" %", "");
+/** To the digit that the interval allows. */
+const signedPercent = (share: number | null, low: number | null, high: number | null) => (share === null ? none : `${share > 0 ? "+" : ""}${percentOf(share, low, high)}`);
+const points = (share: number | null, low: number | null, high: number | null) => signedPercent(share, low, high).replace(" %", "");
 const signedRange = (low: number | null, high: number | null) => percentRange(low, high).replace(/-/g, "−");
 
 function PairTable({ view }: { view: ComparisonView }) {
@@ -191,7 +192,7 @@ function Cells({ view }: { view: ComparisonView }) {
                 <th scope="row">{Object.entries(cell.sweep).map(([input, value]) => `${symbol(input)} = ${number(value)}`).join(", ")}</th>
                 <td class="right">{percent(cell.success_rate.a)}</td>
                 <td class="right">{percent(cell.success_rate.b)}</td>
-                <td class="right strong">{signedPercent(cell.success_rate.difference.estimate)}</td>
+                <td class="right strong">{signedPercent(cell.success_rate.difference.estimate, cell.success_rate.difference.ci_low, cell.success_rate.difference.ci_high)}</td>
                 <td class="right">{signedRange(cell.success_rate.difference.ci_low, cell.success_rate.difference.ci_high)}</td>
                 <td class="right">{number(cell.mcnemar?.holm_p_value ?? cell.mcnemar?.p_value ?? null, 3)}</td>
               </tr>

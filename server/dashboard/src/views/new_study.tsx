@@ -84,6 +84,10 @@ export function NewStudyView({ from }: { from: string | null }) {
     place.querySelector<HTMLElement>("select, input")?.focus({ preventScroll: true });
   };
 
+  const run = (place: string) => (
+    <div class={place}><button type="button" class="button primary" disabled={isSending || spec === null} onClick={submit}>{isSending ? "Sending…" : "Run the study"}</button></div>
+  );
+
   return (
     <div class="page new-study">
       <div class="page-head">
@@ -107,7 +111,7 @@ export function NewStudyView({ from }: { from: string | null }) {
             </select>
           </label>
           {before !== null && <button type="button" class="button quiet" onClick={() => { edit(before); setBefore(null); }}>Undo</button>}
-          <button type="button" class="button primary" disabled={isSending || spec === null} onClick={submit}>{isSending ? "Sending…" : "Run the study"}</button>
+          {run("run-above")}
         </div>
       </div>
       {from !== null && <p class="note">The spec of study <code class="id">{from}</code>. With more trials and nothing else changed, those that are finished are taken over.</p>}
@@ -130,7 +134,7 @@ export function NewStudyView({ from }: { from: string | null }) {
       <div class="split">
         <Card title="Form" class="form-card">
           {spec === null ? (
-            <div class="problem" role="status"><strong>The JSON beside has a mistake in line {located.mistake?.line}</strong><p>{located.mistake?.detail}. The form is back as soon as it is mended.</p></div>
+            <div class="problem" role="status"><strong>The JSON has a mistake in line {located.mistake?.line}</strong><p>{located.mistake?.detail}. The form is back as soon as it is mended.</p></div>
           ) : (
             <SpecForm edited={{
               get: (path) => getAt(spec, path),
@@ -143,6 +147,7 @@ export function NewStudyView({ from }: { from: string | null }) {
           <Editor text={text} located={located} mistakes={mistakes} onChange={edit} jump={jump} />
         </Card>
       </div>
+      {run("run-below")}
     </div>
   );
 }

@@ -38,7 +38,7 @@ export function Overview({ view }: { view: StudyView }) {
       <Metrics summary={summary} />
       {summary.stop && <Stop stop={summary.stop} />}
       <Audit audit={summary.audit} id={summary.study.id} />
-      <SpecCard spec={view.spec} />
+      <SpecCard spec={view.spec} isAlone={Boolean(summary.stop)} />
     </div>
   );
 }
@@ -154,12 +154,19 @@ function Stop({ stop }: { stop: NonNullable<Summary["stop"]> }) {
         {(stop.until as unknown as PrecisionGoal[]).map((goal, k) => (
           <li key={k}>
             <strong>{goal.reached ? "✓" : "✕"}</strong> {metricName(goal.metric.replace(/_rate$/, "")) + (goal.metric.endsWith("_rate") ? " rate" : "")}
-            {goal.quantile !== null && `, ${number(100 * goal.quantile)} % quantile`}: {number(goal.estimate)} in {number(goal.ci_low)} to {number(goal.ci_high)}
+            {goal.quantile !== null && `, ${number(100 * goal.quantile)} % quantile`}: {goalText(goal)}
           </li>
         ))}
       </ul>
     </Card>
   );
+}
+
+/** An estimate in its interval, with its unit. */
+function goalText({ metric, estimate, ci_low: low, ci_high: high }: PrecisionGoal): string {
+  if (metric.endsWith("_rate")) return `${percentOf(estimate, low, high)} in ${percentRange(low, high)}`;
+  const unit = metricUnit(metric);
+  return `${quantity(estimate, unit)} in ${number(low)} to ${quantity(high, unit)}`;
 }
 
 function Audit({ audit, id }: { audit: Summary["audit"]; id: string }) {
@@ -173,7 +180,7 @@ function Audit({ audit, id }: { audit: Summary["audit"]; id: string }) {
       {difference && (
         <dl class="figures">
           <Figure name="median difference">{quantity(difference.median, "s", 2)}</Figure>
-          <Figure name="99 % of them">{quantity(difference.p99, "s", 2)}</Figure>
+          <Figure name="99 % within">{quantity(difference.p99, "s", 2)}</Figure>
           <Figure name="at most">{quantity(difference.max, "s", 2)}</Figure>
         </dl>
       )}
@@ -182,7 +189,8 @@ function Audit({ audit, id }: { audit: Summary["audit"]; id: string }) {
   );
 }
 
-function SpecCard({ spec }: { spec: string }) {
+/** @param isAlone  whether no card stands beside it */
+function SpecCard({ spec, isAlone }: { spec: string; isAlone: boolean }) {
   let text = spec;
   try {
     text = JSON.stringify(JSON.parse(spec), null, 2);
@@ -190,7 +198,7 @@ function SpecCard({ spec }: { spec: string }) {
     // shown as it is
   }
   return (
-    <Card title="Spec" note="With every default filled in.">
+    <Card class={isAlone ? "wide" : ""} title="Spec" note="With every default filled in.">
       <pre class="spec" tabIndex={0} aria-label="Spec">{text}</pre>
     </Card>
   );

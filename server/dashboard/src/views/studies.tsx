@@ -23,7 +23,6 @@ export function StudiesView() {
           <button type="button" class="button" disabled={both.length !== 2} title="Choose two studies in the list" onClick={() => go({ view: "compare", a: both[0] ?? null, b: both[1] ?? null })}>
             Compare {both.length}/2
           </button>
-          <a class="button primary" href="#/new">New study</a>
         </div>
       </div>
       {problem && !problem.isLost && <ProblemBox problem={problem} />}

@@ -5,7 +5,7 @@ import { useStudyState } from "../live";
 import { useDocument, usePage } from "../page_context";
 import { count, duration, number } from "../numbers";
 import { Empty, ProblemBox, Progress, Shown, StateChip } from "../parts";
-import { type Tab, studyLink } from "../route";
+import { type Tab, studyLink, toFragment } from "../route";
 import { Overview } from "./overview";
 import { StudyActions } from "./study_actions";
 import { TrialsTab } from "./trials";
@@ -34,7 +34,7 @@ export function StudyPage({ id, tab, query }: { id: string; tab: Tab; query: Rea
   if (problem?.status === 404) {
     return (
       <Empty title="There is no such study" isWhole>
-        <p>{problem.detail}</p>
+        <p>It was deleted, or the link is of another service: <code>{id}</code>.</p>
         <p><a class="button" href="#/">All studies</a></p>
       </Empty>
     );
@@ -67,7 +67,7 @@ export function StudyPage({ id, tab, query }: { id: string; tab: Tab; query: Rea
 
 function NoTrials({ state }: { state: StudyState | null }) {
   if (state !== null && !isActive(state)) {
-    return <Empty title={`It ${state.status === "cancelled" ? "was cancelled" : "ended"} before a trial finished`}><p>The same spec posted again runs it.</p></Empty>;
+    return <Empty title={`It ${state.status === "cancelled" ? "was cancelled" : "ended"} before a trial finished`}><p>The same spec runs it again.</p><p><a class="button" href={toFragment({ view: "new", from: state.id })}>Open its spec</a></p></Empty>;
   }
   if (state !== null && state.progress.completed > 0) return <Empty title="The first figures are on their way"><p>Trials have finished; what they say is being counted.</p></Empty>;
   return <Empty title="No trial has finished yet"><p>{state?.status === "queued" ? "It waits for its turn." : "The first figures come with the first trials."}</p></Empty>;

@@ -77,6 +77,9 @@ function Neighbours({ id, index }: { id: string; index: number }) {
   );
 }
 
+/** What is dashed in a figure. */
+const referenceWords: Partial<Record<Column, string>> = { q1: "goal", q1_dot: "rest" };
+
 const figures: readonly { title: string; columns: readonly [Column, Column] }[] = [
   { title: "Joint positions", columns: ["q1", "q2"] },
   { title: "Joint velocities", columns: ["q1_dot", "q2_dot"] },
@@ -101,13 +104,14 @@ function Trial({ view, start }: { view: TrialView; start: number | null }) {
         <Links view={view} />
       </Card>
       {figures.map(({ title, columns }) => (
-        <Card key={title} class="figure-card" title={title} actions={<PhaseLegend view={view} />}>
+        <Card key={title} class="figure-card" title={title} actions={<PhaseLegend view={view} reference={referenceWords[columns[0]]} />}>
           <TimeSeries view={view} column={columns[0]} player={player} height={158} isNamed isLast={false} />
           <TimeSeries view={view} column={columns[1]} player={player} height={196} isNamed={false} isLast />
         </Card>
       ))}
-      <Card class="figure-card" title="Phase plane of the passive joint" actions={<span class="muted small">{view.policy === "paper" ? "shaded: the contraction set" : "shaded: where the policy brakes · dashed: its aim"} · circle: the goal</span>}>
-        <PhasePlane view={view} player={player} height={354} />
+      <Card class="figure-card" title="Phase plane of the passive joint" actions={<PhaseLegend view={view} />}
+        note={`${view.policy === "paper" ? "Shaded: the contraction set." : "Shaded: where the policy brakes; dashed in it: its aim."} Circle: the goal.${dashed(view)}`}>
+        <PhasePlane view={view} player={player} height={324} />
       </Card>
       <Card class="wide" title="Error per contraction cycle" note={contractionNote(view)} actions={<p class="legend"><span class="line-sample" /> happened <span class="line-sample dashed" /> predicted</p>}>
         {view.contraction.start.length > 0 ? (
@@ -125,6 +129,12 @@ function Trial({ view, start }: { view: TrialView; start: number | null }) {
       </p>
     </div>
   );
+}
+
+/** Which phases of the course are no whole lines. */
+function dashed(view: TrialView): string {
+  const words = ([["drift", "drift dotted"], ["swing", "swings dashed"]] as const).filter(([kind]) => view.phases.kind.includes(kind)).map(([, text]) => text);
+  return words.length > 0 ? ` The course: ${words.join(", ")}.` : "";
 }
 
 const isTouched = () => matchMedia("(pointer: coarse)").matches;

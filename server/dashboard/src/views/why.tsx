@@ -6,6 +6,7 @@ import { useDocument, usePage } from "../page_context";
 import { Card, Choice, Empty, Loading, ProblemBox, Select, StatusName } from "../parts";
 import { MarginalPlot } from "../plots/marginal";
 import { Plane, type Points, axisOver, describeBin } from "../plots/plane";
+import { RateLegend } from "../plots/rate_legend";
 import { SensitivityBars, byStrength } from "../plots/sensitivity";
 import { go, replaceRoute, trialLink } from "../route";
 import { binOf, binPlane, coarser } from "../statistics";
@@ -224,12 +225,6 @@ function BinnedMap({ id, points, x, y, bins, picked, onPick, of }: {
         )}
       </div>
     </>
-  );
-}
-
-export function RateLegend() {
-  return (
-    <p class="legend rate-legend" aria-hidden="true"><span>0 %</span><span class="rate-ramp" /><span>100 % converged</span></p>
   );
 }
 
