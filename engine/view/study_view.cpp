@@ -141,6 +141,7 @@ std::vector<StudyView::SweptAxis> swept_axes(const Trials& trials) {
   return axes;
 }
 
+/// Sets given_data and sensitivity_of, and touches nothing else of the view.
 void add_sensitivity(const Trials& trials, StudyView& view) {
   const std::array<Metric, 2> outputs{*find_output("success"), *find_output("settling_time")};
   const StudyResult& result = trials.viewed.result;
@@ -247,14 +248,15 @@ StudyView study_view(const ViewedStudy& viewed, const StudyViewOptions& options)
   view.failed = failures_of(trials);
   view.narrowing.intervals = viewed.study.intervals;
   if (view.rows != ShownRows::all) return view;
-  // Sorting every metric takes about as long as all the rest: it is done beside it.
+  // Indices take about as long as sorting every metric or all the rest: each is done beside the others.
+  auto sensitivity = std::async(std::launch::async, [&] { add_sensitivity(trials, view); });
   auto distributions = std::async(std::launch::async, [&] { return distributions_of(trials); });
   view.narrowing = narrowing_of(viewed);
   view.cycles = cycles_of(trials);
   if (!trials.rows.empty()) {
     for (std::size_t i = 0; i < view.inputs.size(); ++i) view.marginals.push_back(marginal_of(trials, i));
   }
-  add_sensitivity(trials, view);
+  sensitivity.get();
   view.distributions = distributions.get();
   if (view.sample.index.size() < view.sample.of) view.maps = maps_of(trials, view.given_data, options.most_maps);
   return view;

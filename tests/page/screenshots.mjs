@@ -10,7 +10,7 @@ import { dirname, join } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 import { parseArgs } from "node:util";
 import { launch, openPage } from "./browser.mjs";
-import { Service, runProgram } from "./service.mjs";
+import { Service, runProgramBeside } from "./service.mjs";
 
 const { values: { vision }, positionals: [directory, ...wanted] } = parseArgs({ allowPositionals: true, options: { vision: { type: "string", default: "none" } } });
 if (!directory) throw new Error("say where the pictures go: node screenshots.mjs DIRECTORY [--vision DEFICIENCY] [PART-OF-A-NAME...]");
@@ -65,11 +65,12 @@ async function submit(spec) {
   return (await response.json()).id;
 }
 
-function report(name, spec) {
+/** @return the address of a study's report. The relay of the service goes on beside it */
+async function report(name, spec) {
   const [file, result, html] = ["json", "h5", "html"].map((ending) => join(folder, `${name}.${ending}`));
   writeFileSync(file, JSON.stringify(spec));
-  runProgram("run", file, "-o", result, "--no-progress");
-  runProgram("report", result, "-o", html);
+  await runProgramBeside("run", file, "-o", result, "--no-progress");
+  await runProgramBeside("report", result, "-o", html);
   return pathToFileURL(html).href;
 }
 
@@ -116,7 +117,11 @@ try {
     for (const key of ["ArrowRight", "ArrowDown"]) await page.keyboard.press(key);
   });
   await picture("overview-swept-time", `#/studies/${swept}`, ".heat", (page) => page.getByRole("button", { name: "Settling time" }).click());
-  await picture("overview-dense", `#/studies/${dense}`, ".heat", (page) => page.locator(".heat tbody td").nth(100).hover());
+  await picture("overview-dense", `#/studies/${dense}`, ".heat", async (page) => {
+    await page.getByLabel("Across").selectOption({ label: "η₁" });
+    await page.getByLabel("Up").selectOption({ label: "η₂" });
+    await page.locator(".heat tbody td").nth(100).hover();
+  });
   for (const [k, name] of ["narrowing", "distribution", "cycles"].entries()) await picture(`hover-${name}`, `#/studies/${small}`, chart, (page) => hover(page, ".overview .u-over", k));
   await picture("hover-map", `#/studies/${many}/why`, ".map-card canvas", (page) => hover(page, ".map-card .u-over", 0, true));
   await picture("hover-marginal", `#/studies/${small}/why`, ".small-multiples canvas", (page) => hover(page, ".small-multiples .u-over", 2));
@@ -151,7 +156,7 @@ try {
   await picture("no-view", "#/elsewhere", ".empty");
   await picture("no-trial", `#/studies/${small}/trials/4000`, ".problem");
 
-  const reported = report("reported", { ...trials(combined, 20_000), name: "reported" });
+  const reported = await report("reported", { ...trials(combined, 20_000), name: "reported" });
   await picture("report", reported, ".headline");
   await picture("report-why", `${reported}#/studies/x/why`, ".page");
   await picture("report-trials", `${reported}#/studies/x/trials`, ".page");
@@ -160,11 +165,11 @@ try {
   const weighed = await service.run(rare);
   await picture("rare", `#/studies/${weighed}`, ".headline");
   await picture("rare-why", `#/studies/${weighed}/why`, ".map-card canvas");
-  await picture("rare-levels", report("levels", shipped("rare_failures/paper_corner_subset_simulation")), ".headline");
-  const kept = report("kept", { ...trials(combined, 20_000), name: "failures kept", store: "failed" });
+  await picture("rare-levels", await report("levels", shipped("rare_failures/paper_corner_subset_simulation")), ".headline");
+  const kept = await report("kept", { ...trials(combined, 20_000), name: "failures kept", store: "failed" });
   await picture("kept", kept, ".headline");
   await picture("kept-why", `${kept}#/studies/x/why`, ".map-card canvas");
-  await picture("kept-none", report("kept-none", { ...trials(combined, 20_000), name: "nothing kept", store: "summary" }), ".headline");
+  await picture("kept-none", await report("kept-none", { ...trials(combined, 20_000), name: "nothing kept", store: "summary" }), ".headline");
 
   const running = await submit({ ...trials(combined, 10_000_000), name: "a study under way, with a name that is longer than most" });
   const waiting = await submit({ ...trials(combined, 9_000_000), name: "waiting" });

@@ -1,7 +1,8 @@
 // The program under the page: starts it, asks it, kills it.
-import { spawn, execFileSync } from "node:child_process";
+import { execFile, execFileSync, spawn } from "node:child_process";
 import { once } from "node:events";
 import { createInterface } from "node:readline";
+import { promisify } from "node:util";
 import { relayTo } from "./relay.mjs";
 
 const program = process.env.STEERSTAT ?? "build/ci/steerstat";
@@ -67,3 +68,5 @@ export class Service {
 }
 
 export const runProgram = (...words) => execFileSync(program, words, { stdio: ["ignore", "pipe", "inherit"] });
+
+export const runProgramBeside = (...words) => promisify(execFile)(program, words);

@@ -1,6 +1,8 @@
 // A study's figures, and what leads from them to its trials.
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { it } from "node:test";
+import { runProgram } from "./service.mjs";
 
 export function testStudy(bench) {
   it("maps the rates of very many trials, and lists the trials of a bin", async () => {
@@ -49,6 +51,38 @@ export function testStudy(bench) {
     const told = await bench.page.locator(".plane [aria-live]").innerText();
     await bench.page.keyboard.press("Enter");
     await bench.page.getByRole("heading", { name: `Trial ${/trial ([\d,]+)/.exec(told)[1].replace(",", "")}`, exact: true }).waitFor();
+  });
+
+  it("hands out a study's result file, which the program reads", async () => {
+    const id = await bench.study("few");
+    await bench.show(`#/studies/${id}`);
+    const [download] = await Promise.all([bench.page.waitForEvent("download"), bench.page.getByRole("link", { name: "Download the result file of few" }).click()]);
+    assert.equal(download.suggestedFilename(), `${id}.h5`);
+    const file = await download.path();
+    const served = await fetch(`${bench.service.url}v1/studies/${id}/results.h5`);
+    assert.ok(readFileSync(file).equals(Buffer.from(await served.arrayBuffer())), "it is what the service has");
+    const summary = JSON.parse(runProgram("show", file, "--json").toString());
+    assert.equal(summary.trials.completed, 40);
+    assert.equal(summary.study.id, id);
+  });
+
+  it("extends a study from its own spec by more trials, of which the first are those it had", async () => {
+    const id = await bench.study("few");
+    await bench.show("#/");
+    await bench.page.getByRole("link", { name: "Extend or vary few", exact: true }).click();
+    await bench.page.getByText("those that are finished are taken over").waitFor();
+    await bench.page.waitForFunction(() => document.querySelector('[data-pointer="/name"] input')?.value === "few");
+    await bench.page.locator('[data-pointer="/name"] input').fill("few and more");
+    await bench.page.getByLabel("Trials", { exact: true }).fill("60");
+    await bench.page.getByRole("button", { name: "Run the study" }).click();
+    await bench.page.getByRole("heading", { name: "few and more" }).waitFor();
+    await bench.page.locator(".page-head .chip", { hasText: "done" }).waitFor();
+    await bench.page.getByText("60 trials", { exact: true }).waitFor();
+    const extended = /studies\/([0-9a-f]{16})/.exec(bench.page.url())[1];
+    assert.notEqual(extended, id);
+    const [before, after] = await Promise.all([id, extended].map((each) => bench.service.get(`v1/studies/${each}/trials?limit=40`)));
+    assert.equal(before.trials.length, 40);
+    assert.deepEqual(after.trials, before.trials);
   });
 
   it("compares two studies that are chosen in the list", async () => {

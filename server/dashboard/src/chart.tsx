@@ -81,7 +81,7 @@ function tooltipPlugin(text: (chart: uPlot, index: number) => string[] | null): 
   };
 }
 
-/** Puts lines beside a point, on the side with room. */
+/** Puts lines beside a point, on the side with room, within the chart. */
 export function showTooltip(box: HTMLElement, lines: string[] | null, left: number, top: number, width: number): void {
   box.hidden = lines === null;
   if (!lines) return;
@@ -92,8 +92,11 @@ export function showTooltip(box: HTMLElement, lines: string[] | null, left: numb
       return row;
     }),
   );
-  const right = left > width / 2;
-  box.style.transform = `translate(${Math.round(left + (right ? -12 : 12))}px, ${Math.round(top)}px) translate(${right ? "-100%" : "0"}, -50%)`;
+  box.style.maxWidth = `${width}px`;
+  const own = box.offsetWidth;
+  const beside = left > width / 2 ? left - 12 - own : left + 12;
+  // On a phone there may be room on neither side: then over the point, but whole.
+  box.style.transform = `translate(${Math.round(Math.max(0, Math.min(width - own, beside)))}px, ${Math.round(top)}px) translate(0, -50%)`;
 }
 
 const font = "12px system-ui, -apple-system, 'Segoe UI', Roboto, sans-serif";

@@ -292,7 +292,7 @@ function find(u: uPlot, { x, y, points, bins }: Drawn, left: number, top: number
   return (bins.trials[k] ?? 0) > 0 ? k : null;
 }
 
-export function describeBin(x: Axis, y: Axis, bins: Bins, k: number): { where: string; rate: string; interval: string } {
+export function describeBin(x: Axis, y: Axis, bins: Bins, k: number): { along: [string, string]; rate: string; interval: string } {
   const part = (axis: Axis, place: number) => {
     if (axis.levels) return `${symbol(axis.input)} = ${quantity(axis.levels[place] ?? null, unitText(axis.unit))}`;
     const [low, high] = bounds(axis, place);
@@ -303,7 +303,7 @@ export function describeBin(x: Axis, y: Axis, bins: Bins, k: number): { where: s
   const successes = bins.successes[k] ?? 0;
   const interval = wilson(successes, trials);
   return {
-    where: `${part(x, k % columns)}, ${part(y, Math.floor(k / columns))}`,
+    along: [part(x, k % columns), part(y, Math.floor(k / columns))],
     rate: `${count(successes)} of ${count(trials)} converged${interval ? `: ${percentOf(successes / trials, interval.low, interval.high)}` : ""}`,
     interval: interval ? `95 % interval ${percentRange(interval.low, interval.high)}` : "",
   };
@@ -318,7 +318,7 @@ function describe({ x, y, points, bins }: Drawn, place: number): string[] {
     ];
   }
   if (!bins) return [];
-  const { where, rate, interval } = describeBin(x, y, bins, place);
-  return [where, rate, ...(interval ? [interval] : [])];
+  const { along, rate, interval } = describeBin(x, y, bins, place);
+  return [...along, rate, ...(interval ? [interval] : [])];
 }
 

@@ -80,7 +80,7 @@ export function FieldEditor({ field, edited, name }: { field: Field; edited: Edi
   const mistakes = mistakesAt(edited.mistakes, field.path);
   const described = mistakes.length > 0 ? id : undefined;
   const input = field.path.join(".");
-  const title = name ?? capitalised(field.kind === "value" || ["nominal", "goal"].includes(field.path[0] ?? "") ? symbol(input.replace(/^nominal/, "plant").replace(/^goal/, "plant")) : words(field.path));
+  const title = name ?? (field.kind === "value" || ["nominal", "goal"].includes(field.path[0] ?? "") ? symbol(input.replace(/^nominal/, "plant").replace(/^goal/, "plant")) : words(field.path));
   const hint = prose(field.description).replace(/\.$/, "");
   const isLong = hint.length > 150; // more than stands beside one line of fields
   const invalid = mistakes.length > 0;
@@ -116,7 +116,7 @@ export function FieldEditor({ field, edited, name }: { field: Field; edited: Edi
   return (
     <div class={`field ${invalid ? "wrong" : ""} ${value !== undefined ? "is-set" : ""}`} data-pointer={toPointer(field.path)}>
       <div class="field-name" title={hint}>
-        <span>{title}{field.unit !== "1" && <span class="muted"> [{unitText(field.unit)}]</span>}</span>
+        <span class={isWords(title) ? "words" : ""}>{title}{field.unit !== "1" && <span class="muted"> [{unitText(field.unit)}]</span>}</span>
         {!isLong && <span class="field-hint">{hint}</span>}
       </div>
       <div class="field-control">{control}</div>
@@ -126,8 +126,8 @@ export function FieldEditor({ field, edited, name }: { field: Field; edited: Edi
   );
 }
 
-/** With a capital where it is words, and no symbol. */
-const capitalised = (title: string) => (/^[a-z]{4}|^[a-z]{3} /.test(title) ? `${title[0]?.toUpperCase()}${title.slice(1)}` : title);
+/** Words are shown with a capital, and symbols as they are. */
+const isWords = (title: string) => /^[a-z]{4}|^[a-z]{3} /.test(title);
 
 const words = (path: Path) => path.slice(1).filter((part) => part !== "trajectories").join(" ").replace(/_/g, " ") || (path[0] ?? "").replace(/_/g, " ");
 

@@ -20,9 +20,11 @@ export function StudiesView() {
           <p class="lead">How often does the controller really work, and why not always?</p>
         </div>
         <div class="page-actions">
-          <button type="button" class="button" disabled={both.length !== 2} title="Choose two studies in the list" onClick={() => go({ view: "compare", a: both[0] ?? null, b: both[1] ?? null })}>
-            Compare {both.length}/2
-          </button>
+          {(studies?.length ?? 0) > 1 && (
+            <button type="button" class="button" disabled={both.length !== 2} title="Choose two studies in the list" onClick={() => go({ view: "compare", a: both[0] ?? null, b: both[1] ?? null })}>
+              Compare {both.length}/2
+            </button>
+          )}
         </div>
       </div>
       {problem && !problem.isLost && <ProblemBox problem={problem} />}

@@ -39,7 +39,7 @@ export function StudyActions({ state, onChange, isBrief = false }: { state: Stud
 function Download({ id, name, isDone, onFailure }: { id: string; name: string; isDone: boolean; onFailure: (text: string) => void }) {
   const { source } = usePage();
   if (!(source instanceof ServiceSource) || !isDone) return null;
-  const fileName = `${name.replace(/[^\w.-]+/g, "_")}.h5`;
+  const fileName = `${id}.h5`; // as the service calls it
   const fetchWithToken = async (event: Event) => {
     if (!source.hasToken) return; // the link does
     event.preventDefault();

@@ -213,7 +213,7 @@ function BinnedMap({ id, points, x, y, bins, picked, onPick, of }: {
       <div class="look" aria-live="polite">
         {told ? (
           <>
-            <strong>{told.where}</strong>: {told.rate}{told.interval && `, ${told.interval}`}.{" "}
+            <strong>{told.along.join(", ")}</strong>: {told.rate}{told.interval && `, ${told.interval}`}.{" "}
             {inside.filter((k) => source.has(points.index[k] ?? -1)).map((k) => (
               <a key={k} class="listed" href={trialLink(id, points.index[k] ?? 0)}>
                 <StatusName status={points.status[k] ?? "converged"} /> {points.index[k]}
