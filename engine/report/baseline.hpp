@@ -41,7 +41,7 @@ void require_same_population(const Study& study, const Baseline& baseline);
 /// inconclusive where neither is so: too few trials, or one scrambling of Sobol's sequence.
 ///
 /// With sweeps there is a gate for each cell. A drop in a cell is significant at the level over the number of cells
-///, so that a run without drops fails with at most the level; a pass takes all cells, so that each rules
+/// (Bonferroni), so that a run without drops fails with at most the level; a pass takes all cells, so that each rules
 /// out the margin at the level itself [Berger 1982].
 void judge_against(const Baseline& baseline, const BaselineTest& test, Summary& summary);
 

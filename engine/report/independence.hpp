@@ -17,12 +17,10 @@ namespace steerstat {
 /// What of a study's trials is independent of what, and the intervals that follow from it. Borrows the plan and the
 /// result; safe to share between threads.
 ///
-/// - Trials of a draw in several cells share its values: over all cells the draw is the unit
-/// (statistics/clustered.hpp).
-///   In a cell, and where nothing is drawn, it is the trial.
+/// - Trials of a draw in several cells share its values: over all cells the draw is the unit (see
+///   statistics/clustered.hpp). In a cell, and where nothing is drawn, it is the trial.
 /// - Trials of a Latin hypercube are not independent, but of n of them the variance is at most n / (n - 1) times that
-/// of
-///   independent ones, whatever is averaged [Owen 1997a]: intervals are those of n - 1.
+///   of independent ones, whatever is averaged [Owen 1997a]: intervals are those of n - 1.
 /// - Nothing of the kind is known of Sobol's sequence at any number of points: one scrambling tells an estimate and no
 ///   interval that bears a level. Intervals of independent trials are given, of no unit, and no verdict rests on them.
 class Independence {

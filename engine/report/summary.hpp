@@ -73,7 +73,7 @@ struct BaselineComparison {
   std::vector<Cell> cells;  ///< in the order of the summary's
 };
 
-/// A study's statistics: INTERFACE's summary object.
+/// A study's statistics, as schemas/summary.schema.json describes them.
 struct Summary {
   std::string id, name, spec_sha256, population_sha256, engine_version;
   std::uint64_t seed{0};

@@ -8,8 +8,8 @@
 
 namespace steerstat {
 
-/// Decodes one number that may vary: a number, a distribution or a sweep, none of whose
-/// values may be out of the input's range.
+/// Decodes one number that may vary: a number, a distribution or a sweep, none of whose values may be out of the
+/// input's range.
 ///
 /// @param nominal  of a plant input, the nominal value, which a relative distribution multiplies; nothing where it is
 ///                 itself mistaken
