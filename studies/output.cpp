@@ -12,6 +12,7 @@
 #include <string>
 #include <system_error>
 
+#include "distributed/ranks.hpp"
 #include "store/whole_file.hpp"
 
 namespace steerstat {
@@ -89,7 +90,8 @@ bool redraws_lines(StandardStream stream) {
 }
 
 bool wants_colour(StandardStream stream) {
-  return redraws_lines(stream) && environment("NO_COLOR").empty();
+  // Open MPI gives every rank a terminal, wherever what it says goes in the end.
+  return redraws_lines(stream) && environment("NO_COLOR").empty() && !rank_in_environment();
 }
 
 unsigned terminal_columns() {

@@ -50,7 +50,7 @@ void write_text(const std::filesystem::path& path, std::string_view text);
 /// Whether the stream is a terminal that moves its cursor on command.
 bool redraws_lines(StandardStream stream);
 
-/// Whether colours are welcome on the stream: a terminal, and NO_COLOR not set (https://no-color.org).
+/// Whether colours are welcome on the stream: a terminal, and NO_COLOR not set (https://no-color.org). Never on ranks.
 bool wants_colour(StandardStream stream);
 
 /// Width of the terminal on standard error, 80 where it does not say.

@@ -57,7 +57,7 @@ class Mpirun : public ::testing::Test {
   /// mpirun looks for its own programs, and keeps its session in TMPDIR.
   static Surroundings surroundings() {
     Surroundings result;
-    result.environment = {"PATH=/usr/bin:/bin", "HOME=/tmp", "LANG=C.UTF-8", "TERM=dumb"};
+    result.environment = {"PATH=/usr/bin:/bin", "HOME=/tmp", "LANG=C.UTF-8", "TERM=xterm"};
     return result;
   }
 
@@ -115,6 +115,7 @@ TEST_F(Mpirun, GivesTheBytesOfOneProcessOnOneTwoAndFourRanks) {
     const Ending ending = mpirun(ranks, all);
     ASSERT_EQ(ending.exit_code, 0) << ending.err;
     EXPECT_EQ(count_in(ending.out, "5,000 trials in "), 1) << ending.out;
+    EXPECT_EQ(count_in(ending.out, "\x1b"), 0) << "colours in what is no terminal:\n" << ending.out;
     EXPECT_EQ(count_in(ending.err, "wrote the trials to"), 1) << ending.err;
     EXPECT_TRUE(datasets_of(out_) == expected) << ranks << " ranks";
     EXPECT_EQ(read_result(out_).result.threads, static_cast<unsigned>(ranks));
