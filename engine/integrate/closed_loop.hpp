@@ -26,11 +26,24 @@ struct ClosedLoop {
   Actuator<Real> actuator{};
 };
 
+/// The gains of (10).
+template <class Real>
+struct AlignGains {
+  Real kp;  ///< [1/s^2]
+  Real kd;  ///< [1/s]
+};
+
+/// The gains at an align's pace. (Inlined everywhere: kernels share no function with other sources; see
+/// core/instruction_set.hpp.)
+template <class Real>
+[[gnu::always_inline]] inline AlignGains<Real> align_gains(const ClosedLoop<Real>& loop, const Phase& align) {
+  return {loop.kp * Real(align.pace * align.pace), loop.kd * Real(align.pace)};
+}
+
 /// (10) at the phase's pace, of what is read of the first joint. @return a [m/s^2]
 template <class Real>
 Real align_acceleration(const ClosedLoop<Real>& loop, const Phase& phase, const State<Real>& x) {
-  const Real kp = loop.kp * Real(phase.pace * phase.pace);
-  const Real kd = loop.kd * Real(phase.pace);
+  const auto [kp, kd] = align_gains(loop, phase);
   return kp * (loop.q1_goal - (x.q1 + Real(phase.q1_offset))) - kd * (x.q1_dot + Real(phase.q1_dot_offset));
 }
 

@@ -206,7 +206,7 @@ CvodeIntegrator::Solver::Moment CvodeIntegrator::Solver::moment(double t, const 
   if (user.phase.kind == PhaseKind::align || user.phase.kind == PhaseKind::drift) {
     const State<double> rate = closed_loop_rate(user, t, x);
     const double active = std::sqrt(rate.q1 * rate.q1 + rate.q1_dot * rate.q1_dot);
-    const double kp = user.loop.kp * user.phase.pace * user.phase.pace, kd = user.loop.kd * user.phase.pace;
+    const auto [kp, kd] = align_gains(user.loop, user.phase);
     moment.rates = {active, std::abs(rate.q2), std::abs(rate.q2), std::abs(rate.q2_dot),
                     std::abs(kp * rate.q1 + kd * rate.q1_dot)};
   }

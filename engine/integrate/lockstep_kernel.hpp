@@ -74,8 +74,9 @@ class Kernel final : public LockstepEngine {
     set_unit(lane, phase.kind == PhaseKind::drift ? 2.0 : 0.25);  // soon corrected by the steps themselves
 
     const bool aligning = phase.kind == PhaseKind::align;
-    lanes.kp[i] = aligning ? -trial.loop.kp * (phase.pace * phase.pace) : 0.0;
-    lanes.kd[i] = aligning ? -trial.loop.kd * phase.pace : 0.0;
+    const auto [kp, kd] = align_gains(trial.loop, phase);
+    lanes.kp[i] = aligning ? -kp : 0.0;
+    lanes.kd[i] = aligning ? -kd : 0.0;
     const bool cycling = phase.kind == PhaseKind::contraction || phase.kind == PhaseKind::swing;
     const double rate = cycling ? 1.0 / phase.duration : 0.0;
     double factor = cycling ? K * phase.amplitude * rate * rate : 0.0;  // (11)

@@ -42,7 +42,7 @@ std::size_t active_guard(const StepPolynomial& step, double q1_goal, const Phase
 /// ceiling^2 - a^2, which has the signs of the guard of |a|.
 std::size_t ceiling_guard(const StepPolynomial& step, const ClosedLoop<double>& loop, const Phase& phase,
                           Coefficients& p) {
-  const double kp = loop.kp * phase.pace * phase.pace, kd = loop.kd * phase.pace;
+  const auto [kp, kd] = align_gains(loop, phase);
   const auto a = [&](std::size_t k) {
     const State<double>& x = step.coefficients[k];
     return k == 0 ? align_acceleration(loop, phase, x) : -(kp * x.q1 + kd * x.q1_dot);
