@@ -197,6 +197,3 @@ export function BreakingCode({ text, at, class: name = "" }: { text: string; at:
   return <code class={name}>{text.split(at).map((part, k) => (k === 0 ? part : <Fragment key={k}>{at}<wbr />{part}</Fragment>))}</code>;
 }
 
-/** Text that a screen has no room for. */
-export const Unseen = ({ children }: { children: ComponentChildren }) => <span class="unseen">{children}</span>;
-

@@ -3,7 +3,7 @@ import { useMemo } from "preact/hooks";
 import { Chart, axis, faded, logTicks, percentTicks } from "../chart";
 import type { Distribution } from "../documents";
 import { axisLabel, metricName, unitText } from "../names";
-import { number, percent, quantity } from "../numbers";
+import { percent, quantity } from "../numbers";
 import { lastAtOrBelow } from "../statistics";
 
 const stepped = (u: uPlot, series: number, from: number, to: number) => uPlot.paths.stepped?.({ align: 1 })(u, series, from, to) ?? null;
@@ -112,5 +112,3 @@ export function TwoDistributions({ a, b, names }: { a: Distribution; b: Distribu
     />
   );
 }
-
-export const medianOf = (distribution: Distribution) => number(distribution.x[lastAtOrBelow(distribution.f, 0.5)] ?? null);
