@@ -102,6 +102,22 @@ TEST(LockstepRunner, AnOutcomeIsTheSameBitsAloneInACrowdAndInAnyOrder) {
   EXPECT_EQ(last.at(3), expected.at(3)) << "as the last of a block";
 }
 
+TEST(LockstepRunner, GuardsThatFireInEveryLaneAtOnceFireWhereTheyDoAlone) {
+  for (const InstructionSet set : {InstructionSet::avx512, InstructionSet::avx2, InstructionSet::portable}) {
+    if (!supports(set)) continue;
+    LockstepRunner runner(1e-9, set);
+    for (const Policy policy : {Policy::paper, Policy::robust}) {  // the robust align has three guards
+      TrialParameters trial = combined_trials(3, 1).front();
+      trial.controller.policy = policy;
+      const TrialOutcome alone = runner.TrialRunner::run(trial);
+      const std::vector<TrialParameters> copies(100, trial);
+      for (const auto& [i, outcome] : run(runner, copies, all_of(copies))) {
+        EXPECT_EQ(outcome, alone) << name_of(set) << ", " << name_of(policy) << ", copy " << i;
+      }
+    }
+  }
+}
+
 TEST(LockstepRunner, ReplayHasTheBitsOfTheRun) {
   const std::vector<TrialParameters> trials = combined_trials(0, 60);
   LockstepRunner runner(1e-9, best_instruction_set());
