@@ -126,7 +126,7 @@ try {
   await picture("hover-map", `#/studies/${many}/why`, ".map-card canvas", (page) => hover(page, ".map-card .u-over", 0, true));
   await picture("hover-marginal", `#/studies/${small}/why`, ".small-multiples canvas", (page) => hover(page, ".small-multiples .u-over", 2));
   await picture("hover-trial", `#/studies/${small}/trials/${converged}`, ".figure-card canvas", (page) => hover(page, ".figure-card .u-over", 1));
-  await picture("heavy-tail", `#/studies/${many}`, chart, (page) => page.getByLabel("Metric").selectOption("effort"));
+  await picture("heavy-tail", `#/studies/${many}`, chart, (page) => page.locator(".overview select").first().selectOption("effort"));
   await picture("focus-map", `#/studies/${small}/why`, ".map-card canvas", async (page) => {
     await page.locator(".plane-keys").focus();
     for (let k = 0; k < 60; ++k) await page.keyboard.press("ArrowRight");

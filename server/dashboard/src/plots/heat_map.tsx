@@ -117,7 +117,7 @@ export function HeatMap({ sweeps }: { sweeps: Sweeps }) {
             <tr>
               {y && <td />}
               <td />
-              {columns.map((i, column) => <th key={i} scope="col">{isSmall || column % Math.ceil(columns.length / 12) === 0 ? number(x.values[i] ?? null) : ""}</th>)}
+              {columns.map((i, column) => <th key={i} scope="col">{isSmall || column % Math.ceil(columns.length / 6) === 0 ? number(x.values[i] ?? null) : ""}</th>)}
             </tr>
             <tr>
               {y && <td />}
