@@ -13,8 +13,8 @@
 namespace steerstat {
 namespace {
 
-constexpr char interrupted = 'i';
-constexpr char finished = 'f';
+constexpr char interrupted_byte = 'i';
+constexpr char finished_byte = 'f';
 
 // The handler's only way out. A stop_source locks and allocates, so the handler may not touch it: it writes a byte, and
 // a thread that waits for the byte requests the stop.
@@ -38,7 +38,7 @@ void on_signal(int /*signal*/) {
   const int saved = errno;
   set_action(SIGINT, SIG_DFL);  // the next one ends the process
   set_action(SIGTERM, SIG_DFL);
-  write_byte(interrupted);
+  write_byte(interrupted_byte);
   errno = saved;
 }
 
@@ -52,11 +52,11 @@ Interruption::Interruption() {
   read_end_ = ends[0];
   write_end = ends[1];
   listener_ = std::thread([this] {
-    char byte = finished;
+    char byte = finished_byte;
     for (;;) {
       const ssize_t count = read(read_end_, &byte, 1);
       if (count < 0 && errno == EINTR) continue;
-      if (count != 1 || byte == finished) return;
+      if (count != 1 || byte == finished_byte) return;
       stop_.request_stop();
     }
   });
@@ -67,7 +67,7 @@ Interruption::Interruption() {
 Interruption::~Interruption() {
   set_action(SIGINT, SIG_DFL);
   set_action(SIGTERM, SIG_DFL);
-  write_byte(finished);
+  write_byte(finished_byte);
   listener_.join();
   close(read_end_);
   close(write_end.exchange(-1));

@@ -43,7 +43,7 @@ struct MergeRequest {
   unsigned threads{0};
 };
 
-void check_outputs(const MergeRequest& request) {
+void check_merge_outputs(const MergeRequest& request) {
   if (request.result == "-") {
     throw BadUsage("-o: a result file cannot go to standard output (HDF5 is not a stream); name a file");
   }
@@ -67,7 +67,7 @@ StudyResult merged(JoinedShares& joined, const RunOptions& options) {
 }
 
 ExitCode merge(const MergeRequest& request) {
-  check_outputs(request);
+  check_merge_outputs(request);
   const Interruption interruption;
   JoinedShares joined = join_shares(std::vector<std::filesystem::path>(request.shards.begin(), request.shards.end()));
   const Study& study = joined.study;

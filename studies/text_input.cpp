@@ -19,7 +19,7 @@ struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
-std::string reason(int error) {
+std::string reason_of(int error) {
   return std::generic_category().message(error);
 }
 
@@ -34,7 +34,7 @@ std::string read_all(std::FILE* file, const std::string& source, std::string_vie
     }
     if (count < sizeof buffer) break;
   }
-  if (std::ferror(file) != 0) throw BadUsage(fmt::format("cannot read {} ({})", source, reason(errno)));
+  if (std::ferror(file) != 0) throw BadUsage(fmt::format("cannot read {} ({})", source, reason_of(errno)));
   return text;
 }
 
@@ -43,7 +43,7 @@ std::string read_all(std::FILE* file, const std::string& source, std::string_vie
 std::string read_text(const std::string& name, std::string_view what, std::string_view advice) {
   if (name == "-") return read_all(stdin, "standard input", what, advice);
   const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(name.c_str(), "rb"));
-  if (!file) throw BadUsage(fmt::format("cannot read {} ({}); check the path", name, reason(errno)));
+  if (!file) throw BadUsage(fmt::format("cannot read {} ({}); check the path", name, reason_of(errno)));
   return read_all(file.get(), name, what, advice);
 }
 

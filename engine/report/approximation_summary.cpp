@@ -9,7 +9,7 @@
 namespace steerstat {
 namespace {
 
-constexpr std::array<ErrorMeasure, error_measure_count> measures{
+constexpr std::array<ErrorMeasure, error_measure_count> every_measure{
     {{"position_end", "rad", [](const CycleError& e) { return e.end.position; }},
      {"velocity_end", "rad/s", [](const CycleError& e) { return e.end.velocity; }},
      {"state_end", "norm of rad and rad/s", [](const CycleError& e) { return e.end.state; }},
@@ -78,9 +78,9 @@ ApproximationSummary::Cell summarise_cell(const CyclePlan& plan, Errors errors, 
   ApproximationSummary::Cell result;
   for (std::size_t i = 0; i < result.sweep.size(); ++i) result.sweep[i] = plan.swept(static_cast<CycleInput>(i), cell);
   std::vector<double> sample(plan.draws());
-  for (std::size_t m = 0; m < measures.size(); ++m) {
+  for (std::size_t m = 0; m < every_measure.size(); ++m) {
     for (std::uint64_t draw = 0; draw < plan.draws(); ++draw) {
-      sample[draw] = measures[m].value(errors[cell * plan.draws() + draw]);
+      sample[draw] = every_measure[m].value(errors[cell * plan.draws() + draw]);
     }
     result.errors[m] = *describe(sample);
   }
@@ -90,7 +90,7 @@ ApproximationSummary::Cell summarise_cell(const CyclePlan& plan, Errors errors, 
 }  // namespace
 
 std::span<const ErrorMeasure, error_measure_count> error_measures() {
-  return measures;
+  return every_measure;
 }
 
 ApproximationSummary summarise(const ApproximationStudy& study, std::span<const CycleError> errors) {
@@ -105,7 +105,7 @@ ApproximationSummary summarise(const ApproximationStudy& study, std::span<const 
   for (std::uint64_t cell = 0; cell < plan.cells(); ++cell) {
     summary.cells.push_back(summarise_cell(plan, errors, cell));
   }
-  for (std::size_t m = 0; m < measures.size(); ++m) summary.orders[m] = orders_of(plan, errors, measures[m]);
+  for (std::size_t m = 0; m < every_measure.size(); ++m) summary.orders[m] = orders_of(plan, errors, every_measure[m]);
   return summary;
 }
 

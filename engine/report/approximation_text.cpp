@@ -13,7 +13,7 @@ namespace {
 using Align = TextTable::Align;
 using Cell = ApproximationSummary::Cell;
 
-constexpr std::size_t most_rows = 60;
+constexpr std::size_t most_approximated_cells = 60;
 
 /// What the columns of the tables of cells are.
 struct Shown {
@@ -21,11 +21,11 @@ struct Shown {
   const char* title;
   double scale;
 };
-constexpr std::array<Shown, 5> shown{{{"position_step", "Error of the position's step (12), in % of it", 100.0},
-                                      {"velocity_step", "Error of the velocity's step (13), in % of it", 100.0},
-                                      {"velocity_end", "Error of q2_dot at the end [rad/s]", 1.0},
-                                      {"position_end", "Error of q2 at the end [rad]", 1.0},
-                                      {"position_worst", "Largest error of q2 within the cycle [rad]", 1.0}}};
+constexpr std::array<Shown, 5> shown_errors{{{"position_step", "Error of the position's step (12), in % of it", 100.0},
+                                             {"velocity_step", "Error of the velocity's step (13), in % of it", 100.0},
+                                             {"velocity_end", "Error of q2_dot at the end [rad/s]", 1.0},
+                                             {"position_end", "Error of q2 at the end [rad]", 1.0},
+                                             {"position_worst", "Largest error of q2 within the cycle [rad]", 1.0}}};
 
 std::size_t index_of(std::string_view name) {
   const auto measures = error_measures();
@@ -51,7 +51,7 @@ std::string measure_text(const std::vector<Cell>& cells, const Shown& what, bool
   }
   columns.insert(columns.end(), {{"median"}, {"95 %"}, {"99 %"}, {"max"}});
   TextTable table(columns);
-  for (std::size_t row = 0; row < std::min(cells.size(), most_rows); ++row) {
+  for (std::size_t row = 0; row < std::min(cells.size(), most_approximated_cells); ++row) {
     std::vector<TextTable::Cell> line;
     for (const std::optional<double>& value : cells[row].sweep) {
       if (value) line.push_back({fmt::format("{:.6g}", *value)});
@@ -125,15 +125,16 @@ std::string approximation_text(const ApproximationSummary& summary, bool colour)
                                         counted(cells * summary.draws, "cycle"), counted(summary.draws, "draw"),
                                         counted(cells, "cell"), summary.seed, summary.coupling, summary.engine_version),
                             faint, colour);
-  for (const Shown& what : shown) {
+  for (const Shown& what : shown_errors) {
     text += '\n';
     text += sweeps_amplitude_and_period_alone(summary.cells.front()) ? square_text(summary.cells, what, colour)
                                                                      : measure_text(summary.cells, what, colour);
   }
   const ApproximationSummary::Orders& orders = summary.orders.front();
   if (orders.amplitude || orders.period) text += '\n' + orders_text(summary, colour);
-  if (cells > most_rows && !sweeps_amplitude_and_period_alone(summary.cells.front())) {
-    text += styled(fmt::format("  The first {} cells; the JSON summary has them all.\n", most_rows), faint, colour);
+  if (cells > most_approximated_cells && !sweeps_amplitude_and_period_alone(summary.cells.front())) {
+    text += styled(fmt::format("  The first {} cells; the JSON summary has them all.\n", most_approximated_cells),
+                   faint, colour);
   }
   return text;
 }

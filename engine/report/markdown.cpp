@@ -10,7 +10,7 @@
 namespace steerstat {
 namespace {
 
-constexpr std::size_t most_rows = 50;  // GitHub cuts a job summary at 1 MiB
+constexpr std::size_t most_table_rows = 50;  // GitHub cuts a job summary at 1 MiB
 
 /// Text that shows as it is. Character references are never taken for markup, in tables either.
 std::string literal(const std::string& text) {
@@ -97,7 +97,7 @@ std::string metrics_table(const TrialStatistics& statistics) {
 std::string cells_table(const Summary& summary) {
   if (summary.cells.empty()) return {};
   std::string text = "| Cell | Trials | Success rate |\n|---|--:|---|\n";
-  for (std::size_t i = 0; i < summary.cells.size() && i < most_rows; ++i) {
+  for (std::size_t i = 0; i < summary.cells.size() && i < most_table_rows; ++i) {
     const Summary::Cell& cell = summary.cells[i];
     std::string name;
     for (const Plan::SweptValue& swept : cell.sweep) {
@@ -106,8 +106,8 @@ std::string cells_table(const Summary& summary) {
     text += fmt::format("| {} | {} | {} |\n", code(name), readable_count(cell.statistics.completed),
                         rate_text(cell.statistics));
   }
-  if (summary.cells.size() > most_rows) {
-    text += fmt::format("\nThe first {} of {} cells.\n", most_rows, readable_count(summary.cells.size()));
+  if (summary.cells.size() > most_table_rows) {
+    text += fmt::format("\nThe first {} of {} cells.\n", most_table_rows, readable_count(summary.cells.size()));
   }
   return text + '\n';
 }

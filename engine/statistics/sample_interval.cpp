@@ -8,7 +8,7 @@
 namespace steerstat {
 namespace {
 
-void require_level(const char* message, double level) {
+void check_level(const char* message, double level) {
   if (!(level > 0.0 && level < 1.0)) throw std::invalid_argument(message);
 }
 
@@ -31,7 +31,7 @@ std::uint64_t first_that(std::uint64_t n, const Predicate& holds) {
 }  // namespace
 
 QuantileRanks quantile_ranks(std::uint64_t n, double p, double level) {
-  require_level("quantile_ranks: needs a level in (0, 1)", level);
+  check_level("quantile_ranks: needs a level in (0, 1)", level);
   if (!(p > 0.0 && p < 1.0)) throw std::invalid_argument("quantile_ranks: needs p in (0, 1)");
   const boost::math::binomial_distribution<double> binomial(static_cast<double>(n), p);
   const double tail = (1.0 - level) / 2.0;
@@ -60,7 +60,7 @@ SampleInterval quantile_interval(std::span<const double> sorted, double p, doubl
 }
 
 SampleInterval mean_interval(double mean, std::optional<double> std, std::uint64_t n, double level) {
-  require_level("mean_interval: needs a level in (0, 1)", level);
+  check_level("mean_interval: needs a level in (0, 1)", level);
   if (n < 2 || !std) return {};
   const boost::math::students_t_distribution<double> student(static_cast<double>(n - 1));
   const double t = boost::math::quantile(boost::math::complement(student, (1.0 - level) / 2.0));

@@ -11,7 +11,7 @@ namespace steerstat {
 namespace {
 
 /// Sums of weights, exact, so that the order of the draws decides no bit.
-struct Sums {
+struct WeightSums {
   ExactSum weights;
   ExactSum squares;
   double largest{0.0};
@@ -58,8 +58,8 @@ WeightedSumInterval weighted_sum_interval(double sum, double squares, double lar
 
 WeightedFailures weighted_failures(std::span<const WeightedDraw> draws, double level) {
   if (draws.empty()) throw std::invalid_argument("weighted_failures: needs draws");
-  Sums all;
-  Sums failed;
+  WeightSums all;
+  WeightSums failed;
   WeightedFailures found;
   found.draws = draws.size();
   for (const WeightedDraw& draw : draws) {

@@ -13,7 +13,6 @@ namespace steerstat {
 namespace {
 
 constexpr PolynomialCommand command(cycle_coefficients);
-constexpr double pi = std::numbers::pi;
 
 /// Relative rounding error of the closed form at T in doubles: coefficients whose sizes add up to 340 cancel to -2
 /// beta.
@@ -40,7 +39,7 @@ Change change_on_approximation(const State<double>& x, double coupling, const Ph
 }
 
 TEST(Contraction, ReachesTheRatesOf14And15OnTheApproximationInEveryQuadrant) {
-  for (const double q2_goal : {pi / 4, 2.2, -2.4, -0.6}) {
+  for (const double q2_goal : {std::numbers::pi / 4, 2.2, -2.4, -0.6}) {
     const Goal goal = goal_at(0.0, q2_goal);
     for (const double eta1 : {0.3, 0.5, 0.9}) {
       for (const double eta2 : {0.2, 0.6, 0.8}) {
@@ -60,7 +59,7 @@ TEST(Contraction, ReachesTheRatesOf14And15OnTheApproximationInEveryQuadrant) {
 }
 
 TEST(Contraction, UsesTheCouplingTheControllerBelievesIn) {
-  const Goal goal = goal_at(0.0, pi / 4);
+  const Goal goal = goal_at(0.0, std::numbers::pi / 4);
   const State<double> x{0.0, 0.5, 0.0, 0.05};
   Controller controller;
   const double amplitude = phase_from(x, controller, goal).amplitude;
@@ -70,7 +69,7 @@ TEST(Contraction, UsesTheCouplingTheControllerBelievesIn) {
 
 TEST(Swing, ReachesTheWantedSpeedOnTheApproximation) {
   // From quadrant IV with q2_dot < 0 towards a goal in quadrant I (case T3), where sin 2 q2 < 0.
-  const Goal goal = goal_at(0.0, pi / 4);
+  const Goal goal = goal_at(0.0, std::numbers::pi / 4);
   Controller controller;
   controller.swing.max_amplitude = 1000.0;
   const State<double> x{0.0, -0.8, 0.0, -0.05};
@@ -94,7 +93,8 @@ TEST(Swing, TowardsAGoalInQuadrant2ReachesTheWantedSpeedBackwards) {
 
 TEST(Swing, IsNoLargerThanTheLargestAmplitude) {
   const State<double> x{0.0, -0.8, 0.0, -0.05};
-  EXPECT_EQ(phase_from(x, Controller{}, goal_at(0.0, pi / 4)).amplitude, Controller{}.swing.max_amplitude);
+  EXPECT_EQ(phase_from(x, Controller{}, goal_at(0.0, std::numbers::pi / 4)).amplitude,
+            Controller{}.swing.max_amplitude);
 }
 
 }  // namespace

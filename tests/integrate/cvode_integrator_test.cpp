@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "imperfection_suite.hpp"
 #include "integrator_suite.hpp"
 
@@ -15,9 +13,6 @@ INSTANTIATE_TYPED_TEST_SUITE_P(Cvode, IntegratorExertion, CvodeIntegrator);
 INSTANTIATE_TYPED_TEST_SUITE_P(Cvode, IntegratorImperfections, CvodeIntegrator);
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 TEST(CvodeIntegrator, AnEmptyIntervalArrivesAtOnce) {
   CvodeIntegrator integrator(1e-9);

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -15,6 +16,9 @@
 
 /// What the suites of tests that all integrators share stand on.
 namespace steerstat::testing {
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// The errors of a phase of some seconds, of states of size 1, may add up to this many tolerances.
 inline constexpr double error_growth = 20.0;

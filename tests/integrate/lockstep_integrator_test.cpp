@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "core/errors.hpp"
 
 #include "imperfection_suite.hpp"
@@ -63,9 +61,6 @@ INSTANTIATE_TYPED_TEST_SUITE_P(ImperfectLockstep, IntegratorImperfections, Imper
 INSTANTIATE_TYPED_TEST_SUITE_P(ImperfectLockstep, IntegratorExertion, Imperfect);
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 TEST(LockstepIntegrator, ANonFiniteStartFails) {
   LockstepIntegrator integrator(1e-9);

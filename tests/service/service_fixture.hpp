@@ -27,9 +27,13 @@ inline std::string quick_spec(std::uint64_t trials, std::uint64_t seed = 1, cons
          std::to_string(trials) + R"(, "seed": )" + std::to_string(seed) + "}" + more + "}";
 }
 
-/// Quick trials that take a second or so, so that a test can come in between; hardly longer beside a sanitizer, which
-/// the kernels are spared.
+/// Quick trials that take a second or so, so that a test can come in between; hardly longer beside the address
+/// sanitizer, which the kernels are spared, but three times as long beside the thread sanitizer.
+#ifdef __SANITIZE_THREAD__
+inline constexpr std::uint64_t many_trials = 150'000;
+#else
 inline constexpr std::uint64_t many_trials = 400'000;
+#endif
 
 /// One that takes many seconds: it is always under way while a test looks.
 inline std::string long_spec(std::uint64_t seed = 1) {

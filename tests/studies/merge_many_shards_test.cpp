@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "../nightly.hpp"
 #include "file_content.hpp"
 #include "process.hpp"
 #include "store/result_file.hpp"
@@ -15,9 +16,11 @@
 namespace steerstat::testing {
 namespace {
 
-/// How many shards a merge is to take: 300, or as the environment says (tests/run nightly: 10,000).
+/// How many shards a merge is to take: 300, 100 beside a sanitizer, or as the environment says (tests/run nightly:
+/// 10,000).
 std::uint32_t wanted_shards() {
   const char* const asked = std::getenv("STEERSTAT_SHARDS");  // NOLINT(concurrency-mt-unsafe): nothing sets it
+  if (asked == nullptr && is_sanitized) return 100;
   return asked == nullptr ? 300 : static_cast<std::uint32_t>(std::atoi(asked));
 }
 

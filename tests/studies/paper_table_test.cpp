@@ -9,7 +9,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const std::string specs = STEERSTAT_SOURCE_DIR "/studies/specs/paper/";
+const std::string paper_specs = STEERSTAT_SOURCE_DIR "/studies/specs/paper/";
 
 TEST(PaperTable, TheShippedSpecsGiveTheDefinitionsFigures) {
   const Ending table = Process(PAPER_TABLE_PROGRAM, {}).wait();
@@ -20,8 +20,8 @@ TEST(PaperTable, TheShippedSpecsGiveTheDefinitionsFigures) {
 
 TEST(PaperTable, AnotherExperimentIsNoticed) {
   const Scratch scratch;
-  scratch.file("nominal.json", read_file(specs + "friction.json"));
-  scratch.file("friction.json", read_file(specs + "friction.json"));
+  scratch.file("nominal.json", read_file(paper_specs + "friction.json"));
+  scratch.file("friction.json", read_file(paper_specs + "friction.json"));
   const Ending table = Process(PAPER_TABLE_PROGRAM, {scratch / ""}).wait();
   EXPECT_EQ(table.exit_code, 1);
   EXPECT_THAT(table.out, HasSubstr("OUTSIDE THE TOLERANCE"));

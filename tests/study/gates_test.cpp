@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const char* const swept =
+const char* const sweep_of_two =
     R"("controller": {"contraction": {"eta1": {"sweep": [0.3, 0.5]}, "eta2": {"sweep": [0.4, 0.6]}}})";
 
 TEST(Gates, KnowARateForEveryOutcome) {
@@ -47,7 +47,7 @@ TEST(Gates, JudgeEveryMetricAndEveryQuantityThatItHas) {
 }
 
 TEST(Gates, AreTheSameHoweverTheyAreWritten) {
-  const std::string spec = std::string("{") + swept;
+  const std::string spec = std::string("{") + sweep_of_two;
   const Study one = decode_study(spec + R"(, "gates": [{"metric": "settling_time", "expr": "120>p95",
       "cell": {"controller.contraction.eta2": 0.6, "controller.contraction.eta1": 0.3}}]})",
                                  {});

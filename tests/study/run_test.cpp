@@ -142,7 +142,7 @@ TEST(RunStudy, RetainsTheFirstTrialsAndTheFirstFailuresByIndex) {
     EXPECT_TRUE(same_bits(one.trajectory.outcome, result.trials.outcomes[one.index]));
     EXPECT_FALSE(one.trajectory.samples.empty());
   }
-  EXPECT_THAT(retained, testing::ElementsAreArray(expected));  // ascending, each once
+  EXPECT_THAT(retained, ::testing::ElementsAreArray(expected));  // ascending, each once
 }
 
 TEST(RunStudy, RetainsAllWhereFewerFinishedThanAskedFor) {

@@ -70,7 +70,7 @@ TEST(Turnstile, GivesWayToWhoWaitsOnceTheQuantumIsUsedUp) {
     order.push_back(3);
   }
   other.join();
-  EXPECT_THAT(order, testing::ElementsAre(1, 2, 3));
+  EXPECT_THAT(order, ::testing::ElementsAre(1, 2, 3));
 }
 
 TEST(Turnstile, ServesThoseWhoWaitInTheOrderOfComing) {
@@ -91,7 +91,7 @@ TEST(Turnstile, ServesThoseWhoWaitInTheOrderOfComing) {
     }
   }
   for (std::thread& worker : workers) worker.join();
-  EXPECT_THAT(order, testing::ElementsAre(0, 1, 2, 3, 4));
+  EXPECT_THAT(order, ::testing::ElementsAre(0, 1, 2, 3, 4));
 }
 
 TEST(Turnstile, CostsNothingWhereThereIsNone) {

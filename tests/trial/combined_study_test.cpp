@@ -7,6 +7,7 @@
 
 #include "combined_study.hpp"
 #include "every_method.hpp"
+#include "nightly.hpp"
 
 /// The combined study: its success rate, and how precise the default tolerance is.
 namespace steerstat::testing {
@@ -26,7 +27,7 @@ bool same_course(const TrialOutcome& a, const TrialOutcome& b) {
 class CombinedStudy : public EveryMethod {};
 
 TEST_P(CombinedStudy, SucceedsAsOftenAsItShould) {
-  constexpr std::size_t trials = 1000;
+  constexpr std::size_t trials = is_sanitized ? 100 : 1000;
   const auto outcomes = outcomes_of(integrator(), trials);
   const auto converged = std::ranges::count(outcomes, Status::converged, &TrialOutcome::status);
   constexpr double rate = 0.4683;  // of 100,000 trials
@@ -38,7 +39,7 @@ TEST_P(CombinedStudy, SucceedsAsOftenAsItShould) {
 }
 
 TEST_P(CombinedStudy, SettlingTimesAreRightToAMicrosecondInTheMedian) {
-  constexpr std::size_t trials = 500;
+  constexpr std::size_t trials = is_sanitized ? 50 : 500;
   const auto outcomes = outcomes_of(integrator(), trials);
   const auto tight = outcomes_of({IntegratorChoice::Method::cvode, 1e-12}, trials);
   std::vector<double> differences;

@@ -24,9 +24,9 @@ std::size_t compared_trials() {
 }
 
 /// Serves trials in order, and keeps the outcomes.
-class ListedTrials final : public TrialStream {
+class OrderedTrials final : public TrialStream {
  public:
-  explicit ListedTrials(const std::vector<TrialParameters>& trials) : outcomes(trials.size()), trials_(trials) {}
+  explicit OrderedTrials(const std::vector<TrialParameters>& trials) : outcomes(trials.size()), trials_(trials) {}
 
   bool next(std::uint64_t& index, TrialParameters& parameters) override {
     if (served_ == trials_.size()) return false;
@@ -45,12 +45,12 @@ class ListedTrials final : public TrialStream {
 
 std::vector<TrialOutcome> run_all(const std::vector<TrialParameters>& trials, const IntegratorChoice& integrator,
                                   InstructionSet set = best_instruction_set()) {
-  ListedTrials stream(trials);
+  OrderedTrials stream(trials);
   make_runner(integrator, set)->run(stream);
   return stream.outcomes;
 }
 
-constexpr IntegratorChoice lockstep{IntegratorChoice::Method::lockstep, 1e-9};
+constexpr IntegratorChoice usual_lockstep{IntegratorChoice::Method::lockstep, 1e-9};
 
 std::vector<InstructionSet> supported_sets() {
   std::vector<InstructionSet> sets;
@@ -69,35 +69,35 @@ void expect_same_bits(const std::vector<TrialOutcome>& a, const std::vector<Tria
 TEST(IdealTrials, RunOnTheEngineThatKnowsNoImperfections) {
   const std::vector<TrialParameters> trials = combined_study(100);
   for (const InstructionSet set : supported_sets()) {
-    LockstepRunner plain(lockstep.tolerance, set);
-    ListedTrials stream(trials);
+    LockstepRunner plain(usual_lockstep.tolerance, set);
+    OrderedTrials stream(trials);
     plain.run(stream);
-    expect_same_bits(run_all(trials, lockstep, set), stream.outcomes);
+    expect_same_bits(run_all(trials, usual_lockstep, set), stream.outcomes);
   }
 }
 
 TEST(IdealTrials, AreNotTouchedBySmoothingVelocitiesAloneNorByTheSeedOfNoNoise) {
   std::vector<TrialParameters> trials = combined_study(40);
-  const auto expected = run_all(trials, lockstep);
+  const auto expected = run_all(trials, usual_lockstep);
   for (TrialParameters& trial : trials) {
     trial.disturbance.coulomb_speed1 = 0.5;
     trial.disturbance.coulomb_speed2 = 0.25;
     trial.sensor.noise_seed = 12345;
   }
-  expect_same_bits(run_all(trials, lockstep), expected);
+  expect_same_bits(run_all(trials, usual_lockstep), expected);
 }
 
 TEST(ImperfectTrials, OutcomesAreTheSameBitsOnEveryInstructionSet) {
   const std::vector<TrialParameters> trials = imperfect_study(60);
-  const auto expected = run_all(trials, lockstep, InstructionSet::portable);
-  for (const InstructionSet set : supported_sets()) expect_same_bits(run_all(trials, lockstep, set), expected);
+  const auto expected = run_all(trials, usual_lockstep, InstructionSet::portable);
+  for (const InstructionSet set : supported_sets()) expect_same_bits(run_all(trials, usual_lockstep, set), expected);
 }
 
 TEST(ImperfectTrials, AnOutcomeIsTheSameBitsAloneAndMixedWithOthersOfEitherKind) {
   const std::vector<TrialParameters> imperfect = imperfect_study(60);
   const std::vector<TrialParameters> ideal = combined_study(60);
-  const auto of_imperfect = run_all(imperfect, lockstep);
-  const auto of_ideal = run_all(ideal, lockstep);
+  const auto of_imperfect = run_all(imperfect, usual_lockstep);
+  const auto of_ideal = run_all(ideal, usual_lockstep);
   std::vector<TrialParameters> mixed;
   std::vector<TrialOutcome> expected;
   for (std::size_t i = 0; i < imperfect.size(); ++i) {
@@ -106,8 +106,8 @@ TEST(ImperfectTrials, AnOutcomeIsTheSameBitsAloneAndMixedWithOthersOfEitherKind)
       expected.push_back(first ? of_imperfect[i] : of_ideal[i]);
     }
   }
-  expect_same_bits(run_all(mixed, lockstep), expected);
-  const auto runner = make_runner(lockstep);
+  expect_same_bits(run_all(mixed, usual_lockstep), expected);
+  const auto runner = make_runner(usual_lockstep);
   for (std::size_t i = 0; i < imperfect.size(); i += 11) {
     EXPECT_TRUE(same_bits(runner->run(imperfect[i]), of_imperfect[i])) << "alone: trial " << i;
   }
@@ -115,7 +115,7 @@ TEST(ImperfectTrials, AnOutcomeIsTheSameBitsAloneAndMixedWithOthersOfEitherKind)
   std::vector<TrialParameters> some_rub = imperfect;
   for (std::size_t i = 0; i < some_rub.size(); i += 2) some_rub[i].disturbance.coulomb1 = 0.0;
   for (std::size_t i = 0; i < some_rub.size(); i += 4) some_rub[i].disturbance.coulomb2 = 0.0;
-  const auto together = run_all(some_rub, lockstep);
+  const auto together = run_all(some_rub, usual_lockstep);
   for (std::size_t i = 0; i < some_rub.size(); i += 6) {
     EXPECT_TRUE(same_bits(runner->run(some_rub[i]), together[i])) << "alone: trial " << i;
   }
@@ -128,7 +128,7 @@ TEST(ImperfectTrials, MoreOfEitherKindThanMayWaitAreAllRun) {
   for (std::size_t i = 0; i < trials.size(); ++i) {
     if (i < 500 || (i > 1'200 && i % 2 == 0)) trials[i].actuator.gain = 1.1;
   }
-  const auto outcomes = run_all(trials, lockstep);
+  const auto outcomes = run_all(trials, usual_lockstep);
   EXPECT_EQ(std::ranges::count(outcomes, Status::converged, &TrialOutcome::status), 2'000);
 }
 

@@ -15,8 +15,6 @@
 namespace steerstat::testing {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 TrialParameters starting_at(const State<double>& start) {
   TrialParameters trial;
   trial.start = start;
@@ -28,7 +26,7 @@ class Runner : public EveryMethod {};
 // --- each status ---
 
 TEST_P(Runner, AStartAtTheGoalHasConvergedAtOnce) {
-  const TrialOutcome outcome = run(starting_at({0.0, pi / 4, 0.0, 0.0}));
+  const TrialOutcome outcome = run(starting_at({0.0, std::numbers::pi / 4, 0.0, 0.0}));
   EXPECT_EQ(outcome.status, Status::converged);
   EXPECT_EQ(outcome.end_time, 0.0);
   EXPECT_EQ(outcome.settling_time(), 0.0);
@@ -36,7 +34,7 @@ TEST_P(Runner, AStartAtTheGoalHasConvergedAtOnce) {
 }
 
 TEST_P(Runner, AStretchedOrFoldedLinkAtRestIsSingularAfterTheAlign) {
-  for (const double axis : {0.0, pi, -pi}) {
+  for (const double axis : {0.0, std::numbers::pi, -std::numbers::pi}) {
     const TrialOutcome outcome = run(starting_at({0.5, axis, 0.0, 0.0}));
     EXPECT_EQ(outcome.status, Status::singular) << axis;
     EXPECT_EQ(outcome.alignments, 1u);
@@ -44,7 +42,8 @@ TEST_P(Runner, AStretchedOrFoldedLinkAtRestIsSingularAfterTheAlign) {
     EXPECT_GT(outcome.end_time, 1.0);
     EXPECT_TRUE(std::isnan(outcome.settling_time()));
   }
-  EXPECT_EQ(run(starting_at({0.0, pi, 0.0, 0.0})).end_time, 0.0) << "an align that is not needed takes no time";
+  EXPECT_EQ(run(starting_at({0.0, std::numbers::pi, 0.0, 0.0})).end_time, 0.0)
+      << "an align that is not needed takes no time";
 }
 
 TEST_P(Runner, ATrialWithTooMuchFrictionTimesOutAtTheHorizon) {
