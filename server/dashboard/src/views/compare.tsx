@@ -5,7 +5,8 @@ import { count, none, number, percent, percentOf, percentRange } from "../number
 import { useDocument, usePage } from "../page_context";
 import { BreakingCode, Card, Empty, Figure, Select, Shown, StatusMark, StatusName } from "../parts";
 import { TwoDistributions, DistributionPlot } from "../plots/distribution";
-import { type Points, Plane, axisOver } from "../plots/plane";
+import type { Points } from "../plots/marks";
+import { Plane, axisOver } from "../plots/plane";
 import { go, studyLink, trialLink } from "../route";
 import type { StudyPage } from "../source";
 
