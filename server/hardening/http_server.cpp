@@ -31,7 +31,7 @@ std::string head_for_library(const RequestHead& head) {
   for (const auto& [name, value] : head.fields) {
     if (name == "range") text += "x-single-range: " + value + "\r\n";
     const bool withheld = std::find(withheld_fields.begin(), withheld_fields.end(), name) != withheld_fields.end();
-    if (!withheld && name != "x-single-range") text += name + ": " + value + "\r\n";
+    if (!withheld && name != "x-single-range") text.append(name).append(": ").append(value).append("\r\n");
   }
   return text + "\r\n";
 }
