@@ -67,7 +67,8 @@ class StudyService {
 
   /// Ends the runs once the blocks in flight are finished and kept, and waits for that, but for stopping_time at most:
   /// then those are given up. They go on at the next start.
-  /// submit() and cancel_or_remove() are refused from then on, readers are not. Wakes all who wait_for_change(). Idempotent.
+  /// submit() and cancel_or_remove() are refused from then on, readers are not. Wakes all who wait_for_change().
+  /// Idempotent.
   void stop();
 
   /// Takes a spec. Once it returns, the study is on the disk and will be run whatever happens to the process. Where a
