@@ -86,8 +86,8 @@ function Sampling({ edited }: { edited: Edited }) {
         {chosen !== "grid" && chosen !== "explicit" && (
           <ReadInput label={chosen === "sobol_indices" ? "Rows" : "Trials"} value={typeof trials === "number" ? trials : undefined} show={String} read={whole} onValue={(next) => edited.set(["sampling", "trials"], next)} placeholder="1" wrong="a whole number" inputMode="numeric" isInvalid={isWrong("trials")} describedBy={described} />
         )}
-        {chosen === "explicit" && <ListedEditor edited={edited} isInvalid={isWrong("trials")} describedBy={described} />}
         <ReadInput label="Seed" value={typeof seed === "number" ? seed : undefined} show={String} read={whole} onValue={(next) => edited.set(["sampling", "seed"], next)} placeholder="1" wrong="a whole number" inputMode="numeric" isInvalid={isWrong("seed")} describedBy={described} />
+        {chosen === "explicit" && <ListedEditor edited={edited} isInvalid={isWrong("trials")} describedBy={described} />}
       </div>
       <Mistakes mistakes={mistakes} id={id} />
     </div>
