@@ -4,8 +4,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <exception>
-#include <new>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -19,6 +17,7 @@
 #include "output.hpp"
 #include "simd_choice.hpp"
 #include "study/nearest.hpp"
+#include "tell_failure.hpp"
 
 namespace steerstat {
 namespace {
@@ -124,24 +123,9 @@ ExitCode run_program(int argc, const char* const* argv) noexcept {
     secure_standard_streams();
     if (is_follower(argc, argv)) mute_standard_streams();
     return parse_and_run(argc, argv);
-  } catch (const BadUsage& bad) {
-    tell(bad.what());
-    return ExitCode::bad_request;
-  } catch (const BadSpec& bad) {
-    tell(bad.what());
-    return ExitCode::bad_request;
-  } catch (const ReaderGone&) {
-    // Its reader knows; nothing to say.
-  } catch (const RunFailure& failure) {
-    tell(failure.what());
-  } catch (const std::bad_alloc&) {
-    tell_raw("steerstat: out of memory; use fewer trials, cells or retained trajectories\n");
-  } catch (const std::exception& bug) {
-    tell(fmt::format("a bug ended the run ({}); please report it with the command and the spec", bug.what()));
   } catch (...) {
-    tell_raw("steerstat: a bug ended the run; please report it with the command and the spec\n");
+    return tell_failure();
   }
-  return ExitCode::run_failed;
 }
 
 }  // namespace steerstat

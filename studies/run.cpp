@@ -10,6 +10,7 @@
 #include "interruption.hpp"
 #include "requested_run.hpp"
 #include "simd_choice.hpp"
+#include "tell_failure.hpp"
 
 namespace steerstat {
 namespace {
@@ -60,24 +61,17 @@ ExitCode follow(Ranks& ranks, const RunRequest& request) {
   return static_cast<ExitCode>(work(ranks, options));
 }
 
-/// Leads, and lets the other ranks end as this one does, however it does.
+/// Leads, and lets the other ranks end as this one does, however it does: when all is said, for once a rank ends with a
+/// code that is not 0, mpirun ends the others.
 ExitCode lead(Ranks& ranks, const RunRequest& request) {
-  const auto ended = [&ranks](ExitCode code) {
-    end_ranks(ranks, static_cast<int>(code));
-    return code;
-  };
+  ExitCode code = ExitCode::run_failed;
   try {
-    return ended(run_requested(request, &ranks));
-  } catch (const BadUsage&) {
-    ended(ExitCode::bad_request);
-    throw;
-  } catch (const BadSpec&) {
-    ended(ExitCode::bad_request);
-    throw;
+    code = run_requested(request, &ranks);
   } catch (...) {
-    ended(ExitCode::run_failed);
-    throw;
+    code = tell_failure();
   }
+  end_ranks(ranks, static_cast<int>(code));
+  return code;
 }
 
 /// @throws BadUsage for what is for several processes, where there is one
