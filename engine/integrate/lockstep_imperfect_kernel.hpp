@@ -38,25 +38,23 @@ struct ReadAlignGuard {
   }
 };
 
+/// One: the series' sums keep the processor busy by themselves.
+inline constexpr int imperfect_pack_count = 1;
+
 /// Trials with any imperfection of engine/robot/README.md but the sensor's, which phases carry. Where the actuator's
 /// limit is reached the loop has a kink: steps end there.
-class ImperfectKernel final : public LockstepEngine {
+class ImperfectKernel final : public PackedEngine<ImperfectLanes, imperfect_pack_count> {
  public:
   explicit ImperfectKernel(double tolerance) : log2_tolerance_(natural_log(margin * tolerance) * elementary::log2_e) {
-    for (int lane = 0; lane < lanes(); ++lane) vacate(lane);
+    vacate_all();
   }
-
-  [[nodiscard]] InstructionSet instruction_set() const override { return InstructionSet::STEERSTAT_ISA; }
-  [[nodiscard]] int lanes() const override { return packs * Pack::lanes; }
 
   void seat(int lane, const ClosedLoop<double>& loop) override {
     const PlantConstants<double>& plant = loop.plant;
     const PlantConstants<double>& nominal = loop.nominal;
     const Disturbance<double>& disturbance = loop.disturbance;
-    const double K = plant.moment / plant.inertia;
     const double gain = loop.actuator.gain;
-    trials_[lane].K = K;
-    trials_[lane].loop = loop;
+    const double K = take_seat(lane, loop);
     const auto [lanes, i] = place(lane);
     ImperfectConstants<Row>& constants = lanes.loop;
     constants.slip[i] = plant.f2 / plant.inertia;
@@ -72,170 +70,59 @@ class ImperfectKernel final : public LockstepEngine {
     constants.rub2[i] = disturbance.coulomb2 / plant.inertia;
     constants.sharp1[i] = 1.0 / (std::abs(K) * disturbance.coulomb_speed1);
     constants.sharp2[i] = 1.0 / disturbance.coulomb_speed2;
-    lanes.scale[i] = 1.0 / std::abs(K);
     const bool rubs = disturbance.coulomb1 > 0.0 || disturbance.coulomb2 > 0.0;
-    seated_ |= bit(lane);
     rubbing_ = (rubbing_ & ~bit(lane)) | (rubs ? bit(lane) : 0);
   }
 
   void start(int lane, const Phase& phase, double t, const State<double>& x, double t_end) override {
-    Trial& trial = trials_[lane];
-    trial.t_start = t;
-    trial.t_end = t_end;
-    trial.cause = Cause::time;
-    trial.corrected_at = -1.0;
-    trial.goal = trial.loop.q1_goal - phase.q1_offset;
-    const double K = trial.K;
-    const double E = K * (x.q1 - trial.goal);
-    const double V = K * x.q1_dot;
-    const double read_V = K * phase.q1_dot_offset;
+    const double read_V = trials_[lane].K * phase.q1_dot_offset;
+    begin(lane, phase, t, x, t_end, read_V);
+    corrected_at_[lane] = -1.0;
     const auto [lanes, i] = place(lane);
-    lanes.E[i] = E;
-    lanes.V[i] = V;
-    lanes.q2[i] = x.q2;
-    lanes.w[i] = x.q2_dot;
-    lanes.t[i] = 0.0;
-    lanes.t_end[i] = t_end - t;
-    lanes.mode[i] = undecided;
-    set_unit(lane, phase.kind == PhaseKind::drift ? 2.0 : 0.25);  // soon corrected by the steps themselves
-
-    const bool aligning = phase.kind == PhaseKind::align;
-    const auto [kp, kd] = align_gains(trial.loop, phase);
-    lanes.kp[i] = aligning ? -kp : 0.0;
-    lanes.kd[i] = aligning ? -kd : 0.0;
     lanes.read_V[i] = read_V;
-    const bool cycling = phase.kind == PhaseKind::contraction || phase.kind == PhaseKind::swing;
-    const double rate = cycling ? 1.0 / phase.duration : 0.0;
-    double factor = cycling ? K * phase.amplitude * rate * rate : 0.0;  // (11)
-    for (std::size_t k = 0; k < 5; ++k) {
-      factor *= rate;
-      lanes.cycle[k][i] = cycle_coefficients[k] * factor;
-    }
-    const double radius = phase.active_tolerance < 0.0 ? -1.0 : std::abs(K) * phase.active_tolerance;
-    lanes.radius[i] = radius;
-    const double ceiling = std::abs(K) * phase.ceiling;
-    lanes.ceiling[i] = ceiling;
-    lanes.q2_low[i] = phase.q2_low;
-    lanes.q2_high[i] = phase.q2_high;
-    lanes.direction[i] = phase.direction;
-    lanes.speed_floor[i] = phase.speed_floor;
-    const bool armed = (radius < 0.0 || E * E + (V + read_V) * (V + read_V) > radius * radius) &&
-                       std::abs(lanes.kp[i] * E + lanes.kd[i] * (V + read_V)) < ceiling && x.q2 > phase.q2_low &&
-                       x.q2 < phase.q2_high && phase.direction * x.q2_dot > phase.speed_floor;
-    armed_ = (armed_ & ~bit(lane)) | (armed ? bit(lane) : 0);
-  }
-
-  void vacate(int lane) override {
-    const PlantParameters<double> any;
-    seat(lane, {constants_of(any), constants_of(any), 0.0, 0.0, 0.0, {}, {}});
-    start(lane, Phase{PhaseKind::drift}, 0.0, State<double>{}, 1.0);
-    seated_ &= ~bit(lane);
+    lanes.mode[i] = undecided;
   }
 
   std::uint64_t step() override {
-    std::uint64_t ended = 0, watch = 0, unsound = 0, stalled = 0, force = 0;
-    for (int pack = 0; pack < packs; ++pack) {
+    StepEvents events;
+    std::uint64_t force = 0;
+    for (int pack = 0; pack < imperfect_pack_count; ++pack) {
       const bool rubs = (rubbing_ >> (pack * Pack::lanes) & (~std::uint64_t{0} >> (64 - Pack::lanes))) != 0;
       const ImperfectReport report =
           rubs ? advance<true>(packs_[pack], log2_tolerance_) : advance<false>(packs_[pack], log2_tolerance_);
-      const auto at_its_place = [&](std::uint32_t bits) { return std::uint64_t{bits} << (pack * Pack::lanes); };
-      ended |= at_its_place(report.step.reached_end);
-      watch |= at_its_place(report.step.watch);
-      unsound |= at_its_place(report.step.unsound);
-      stalled |= at_its_place(report.step.stalled);
-      force |= at_its_place(report.force);
+      events.note(report.step, pack);
+      force |= at_pack(report.force, pack);
     }
-    counters_.steps += packs;
-    counters_.lane_slots += static_cast<std::uint64_t>(lanes());
-    counters_.lane_steps += static_cast<std::uint64_t>(std::popcount(seated_));
-    for_each_lane(ended & ~seated_, [&](int lane) { set_time(lane, 0.0); });
-
-    ended &= seated_ & ~unsound;
-    for_each_lane(stalled & seated_ & ~unsound, [&](int lane) {
-      trials_[lane].cause = Cause::failure;
-      ended |= bit(lane);
-    });
-    for_each_lane((watch | force) & seated_ & ~unsound & ~stalled, [&](int lane) {
-      switch (search(lane, (watch & bit(lane)) != 0, (force & bit(lane)) != 0)) {
+    close_step(events);
+    fail_stalled(events);
+    for_each_lane((events.watch | force) & seated_ & ~events.unsound & ~events.stalled, [&](int lane) {
+      switch (search(lane, (events.watch & bit(lane)) != 0, (force & bit(lane)) != 0)) {
         case Found::nothing:
           break;
         case Found::guard:
-          ended |= bit(lane);
+          events.ended |= bit(lane);
           break;
         case Found::kink:
-          ended &= ~bit(lane);
+          events.ended &= ~bit(lane);
           break;
       }
     });
-    armed_ |= ~watch;  // every guard of these was positive throughout
-    for_each_lane(unsound & seated_, [&](int lane) {
-      if (!retry(lane)) ended |= bit(lane);
+    armed_ |= ~events.watch;  // every guard of these was positive throughout
+    for_each_lane(events.unsound, [&](int lane) {
+      if (!take_back(lane, motion_of(lane))) events.ended |= bit(lane);
     });
-    counters_.arrivals += static_cast<std::uint64_t>(std::popcount(ended));
-    return ended;
-  }
-
-  [[nodiscard]] Arrival arrival(int lane) const override {
-    const Trial& trial = trials_[lane];
-    const auto [lanes, i] = place(lane);
-    const double t = lanes.t[i];
-    return {t == lanes.t_end[i] ? trial.t_end : trial.t_start + t,
-            {trial.goal + lanes.E[i] / trial.K, lanes.q2[i], lanes.V[i] / trial.K, lanes.w[i]},
-            trial.cause};
+    counters_.arrivals += static_cast<std::uint64_t>(std::popcount(events.ended));
+    return events.ended;
   }
 
   [[nodiscard]] State<double> dense_output(int lane, double t) const override {
-    const Trial& trial = trials_[lane];
-    const auto [lanes, i] = place(lane);
-    const double dt = t - (trial.t_start + lanes.t_start[i]);
-    Moment<double> moment;
-    motion_of(lanes, i).at(dt, moment);
-    const auto& [first, second] = moment.joint;
-    return {trial.goal + first.position / trial.K, second.position, first.velocity / trial.K, second.velocity};
+    return state_at(lane, motion_of(lane), t);
   }
 
  private:
   static constexpr double margin = 0.125;  // as without imperfections
-  static constexpr int packs = 1;          // the series' sums keep the processor busy by themselves
-
-  struct Trial {
-    ClosedLoop<double> loop;
-    double K;
-    double goal;  // where align sees it
-    double t_start, t_end;
-    double corrected_at;  // when in the phase the force's mode was last found to be wrong; negative: never
-    Cause cause;
-  };
 
   enum class Found { nothing, guard, kink };
-
-  template <class L>
-  struct Place {
-    L& lanes;
-    int column;
-  };
-  Place<ImperfectLanes> place(int lane) { return {packs_[lane / Pack::lanes], lane % Pack::lanes}; }
-  [[nodiscard]] Place<const ImperfectLanes> place(int lane) const {
-    return {packs_[lane / Pack::lanes], lane % Pack::lanes};
-  }
-
-  static std::uint64_t bit(int lane) { return std::uint64_t{1} << lane; }
-
-  template <class Body>
-  static void for_each_lane(std::uint64_t lanes, Body&& body) {
-    for (; lanes != 0; lanes &= lanes - 1) body(std::countr_zero(lanes));
-  }
-
-  void set_time(int lane, double t) {
-    const auto [lanes, i] = place(lane);
-    lanes.t[i] = t;
-  }
-
-  void set_unit(int lane, double unit) {
-    const auto [lanes, i] = place(lane);
-    lanes.unit[i] = unit;
-    lanes.rate[i] = 1.0 / unit;
-  }
 
   static double coefficient(const Pack& x, int i) {
     double value = 0.0;
@@ -244,7 +131,9 @@ class ImperfectKernel final : public LockstepEngine {
     return value;
   }
 
-  static StepMotion<double> motion_of(const ImperfectLanes& lanes, int i) {
+  /// The motion over a lane's last step.
+  [[nodiscard]] StepMotion<double> motion_of(int lane) const {
+    const auto [lanes, i] = place(lane);
     StepMotion<double> motion;
     JointSeries<double>&first = motion.joint[0], &second = motion.joint[1];
     for (int k = 0; k <= order; ++k) {
@@ -291,7 +180,7 @@ class ImperfectKernel final : public LockstepEngine {
     const double h = lanes.h[i];
     const double bend = lanes.bend[i] / (h * h);
     const bool armed = (armed_ & bit(lane)) != 0;
-    const StepMotion<double> motion = motion_of(lanes, i);
+    const StepMotion<double> motion = motion_of(lane);
     double t = Phase::unbounded;
     const auto consider = [&](const auto& guard, double bound) {
       if (std::abs(bound) < Phase::unbounded) t = std::min(t, locate(guard, motion, h, bend, armed));
@@ -351,8 +240,8 @@ class ImperfectKernel final : public LockstepEngine {
         return Found::kink;
       }
       // Once at a time: where the force only touches the limit, rounding may call either mode wrong.
-      if (kink.wrong && trials_[lane].corrected_at != lanes.t_start[i]) {
-        trials_[lane].corrected_at = lanes.t_start[i];
+      if (kink.wrong && corrected_at_[lane] != lanes.t_start[i]) {
+        corrected_at_[lane] = lanes.t_start[i];
         put(lane, 0.0);
         lanes.mode[i] = kink.mode;
         return Found::kink;
@@ -368,7 +257,7 @@ class ImperfectKernel final : public LockstepEngine {
   void put(int lane, double t) {
     const auto [lanes, i] = place(lane);
     Moment<double> moment;
-    motion_of(lanes, i).at(t, moment);
+    motion_of(lane).at(t, moment);
     const auto& [first, second] = moment.joint;
     lanes.E[i] = first.position;
     lanes.V[i] = first.velocity;
@@ -377,27 +266,10 @@ class ImperfectKernel final : public LockstepEngine {
     lanes.t[i] = lanes.t_start[i] + t;
   }
 
-  /// Takes back a step whose coefficients overflowed, for another in a thousandth of its unit.
-  /// @return false, with the lane's cause set, when that cannot be what is wrong
-  bool retry(int lane) {
-    const auto [lanes, i] = place(lane);
-    lanes.E[i] = lanes.E_start[i];
-    lanes.q2[i] = lanes.q2_start[i];
-    lanes.V[i] = coefficient(lanes.series.V[0], i) * lanes.rate_start[i];
-    lanes.w[i] = coefficient(lanes.series.w[0], i) * lanes.rate_start[i];
-    lanes.t[i] = lanes.t_start[i];
-    set_unit(lane, 0x1p-10 / lanes.rate_start[i]);
-    if (lanes.unit[i] > 0x1p-50) return true;
-    trials_[lane].cause = Cause::failure;
-    return false;
-  }
-
   double log2_tolerance_;
-  std::uint64_t seated_{0};
-  std::uint64_t armed_{0};    ///< lanes whose guards have all been positive in this phase
-  std::uint64_t rubbing_{0};  ///< lanes with Coulomb friction
-  ImperfectLanes packs_[packs]{};
-  Trial trials_[packs * Pack::lanes]{};
+  std::uint64_t rubbing_{0};                                   ///< lanes with Coulomb friction
+  double corrected_at_[imperfect_pack_count * Pack::lanes]{};  ///< [s] since the phase's start: when its force's mode
+                                                               ///< was last found to be wrong; negative: never
 };
 
 }  // namespace steerstat::STEERSTAT_ISA

@@ -3,27 +3,13 @@
 
 namespace steerstat::STEERSTAT_ISA {
 
-/// The trials under way, a column a lane, as in LaneRows; E is about where align sees the goal.
-struct ImperfectLanes {
-  Row E, q2, V, w;  ///< state at the step's start
-  Row t, t_end;     ///< [s] since the phase's start; where the phase ends unless a guard fires
-  Row unit, rate;   ///< the series' unit of time [s], a power of two, and its reciprocal
-  ImperfectConstants<Row> loop;
-  Row scale;                                    ///< 1 / |K|
-  Row kp, kd;                                   ///< of LawSeries, per second; zero unless aligning
-  Row read_V;                                   ///< align: what is read of V, less V, per second
-  Row cycle[5];                                 ///< b = sum of cycle[i] t^(i + 1)
-  Row mode;                                     ///< where the force stands, such as within_limits
-  Row radius;                                   ///< align: the guard's tolerance times |K|; negative: no such guard
-  Row ceiling;                                  ///< align: the bound on |b|; infinite: no such guard
-  Row q2_low, q2_high, direction, speed_floor;  ///< drift: the guards of Phase
-
-  // Of the last step: where it began, its size, bounds on h^2 |second derivative| of the velocity that the guards watch
-  // and of the force asked for.
-  Row E_start, q2_start, t_start, rate_start;
-  Row h;  ///< [s]
-  Row bend, force_bend;
-  ImperfectExpansion series;
+/// The trials under way; E is about where align sees the goal.
+struct ImperfectLanes : LaneRows {
+  ImperfectConstants<Row> loop;  ///< of the trial, per second
+  Row read_V;                    ///< align: what is read of V, less V, per second
+  Row mode;                      ///< where the force stands, such as within_limits
+  Row force_bend;                ///< of the last step: bound on h^2 |second derivative| of the force asked for
+  ImperfectExpansion series;     ///< of the last step
 };
 
 /// What a step did, a bit a lane.
@@ -121,11 +107,7 @@ template <bool rubs>
   const auto in_units = [&](const Row& acceleration) { return load(acceleration) * (unit * unit); };
   law.kp = in_units(lanes.kp);
   law.kd = load(lanes.kd) * unit;
-  law.cycle[0] = Pack(0.0);
-  for (int i = 0; i < 5; ++i) law.cycle[i + 1] = load(lanes.cycle[i]);
-  for (int i = 0; i < 5; ++i) {  // Horner's scheme once a coefficient: the polynomial about t
-    for (int j = 4; j >= i; --j) law.cycle[j] = fma(law.cycle[j + 1], t, law.cycle[j]);
-  }
+  shift_cycle(lanes, t, law.cycle);
   for (int k = 0; k < 6; ++k) {
     law.cycle[k] = law.cycle[k] * power;
     power = power * unit;

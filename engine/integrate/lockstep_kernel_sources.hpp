@@ -16,6 +16,8 @@
 
 #include "integrate/lockstep_roots.hpp"
 
+#include "integrate/lockstep_packed_engine.hpp"
+
 #include "integrate/lockstep_exertion.hpp"
 
 #include "integrate/lockstep_kernel.hpp"

@@ -16,17 +16,16 @@ inline void store(Row& row, Pack x) {
   store(row.lane, x);
 }
 
-/// The trials under way, a column a lane: state, phase and constants, in the scaled coordinates of LoopConstants.
+/// The trials under way, a column a lane: state and phase, in the scaled coordinates of LoopConstants.
 struct LaneRows {
-  Row E, q2, V, w;          ///< state at the step's start
-  Row t, t_end;             ///< [s] since the phase's start; where the phase ends unless a guard fires
-  Row unit, rate;           ///< the series' unit of time [s], a power of two, and its reciprocal
-  LoopConstants<Row> loop;  ///< of the trial, per second
-  Row scale;                ///< 1 / |K|, what a unit of E or V is in m or m/s
-  Row kp, kd;               ///< of LawSeries, per second; zero unless aligning
-  Row cycle[5];             ///< b = sum of cycle[i] t^(i + 1), t [s] since the phase's start; zero unless in a cycle
-  Row radius;               ///< align: the guard's tolerance times |K|; negative: no such guard
-  Row ceiling;              ///< align: the bound on |b|; infinite: no such guard
+  Row E, q2, V, w;  ///< state at the step's start
+  Row t, t_end;     ///< [s] since the phase's start; where the phase ends unless a guard fires
+  Row unit, rate;   ///< the series' unit of time [s], a power of two, and its reciprocal
+  Row scale;        ///< 1 / |K|, what a unit of E or V is in m or m/s
+  Row kp, kd;       ///< of LawSeries, per second; zero unless aligning
+  Row cycle[5];     ///< b = sum of cycle[i] t^(i + 1), t [s] since the phase's start; zero unless in a cycle
+  Row radius;       ///< align: the guard's tolerance times |K|; negative: no such guard
+  Row ceiling;      ///< align: the bound on |b|; infinite: no such guard
   Row q2_low, q2_high, direction, speed_floor;  ///< drift: the guards of Phase
 
   // Of the last step: where it began, its size, and how far its velocities strayed from straight lines.
@@ -38,6 +37,7 @@ struct LaneRows {
 template <int precision>
 struct Lanes : LaneRows {
   static constexpr bool measured = false;
+  LoopConstants<Row> loop;      ///< of the trial, per second
   Expansion<precision> series;  ///< of the last step
 };
 

@@ -1,13 +1,11 @@
 // What the page's tests share: one service, one browser, one page, and a few small studies, each run when first asked for.
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { dirname, join } from "node:path";
-import { fileURLToPath } from "node:url";
+import { join } from "node:path";
 import { launch, openPage } from "./browser.mjs";
 import { Service } from "./service.mjs";
+import { shipped } from "./shipped.mjs";
 
-const specs = process.env.SPECS ?? join(dirname(fileURLToPath(import.meta.url)), "../../studies/specs");
-const shipped = (name) => JSON.parse(readFileSync(join(specs, `${name}.json`), "utf8"));
 export const combined = shipped("robustness/combined");
 export const importance = shipped("rare_failures/paper_corner_importance");
 const swept = shipped("parameter/eta");

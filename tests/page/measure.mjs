@@ -1,6 +1,6 @@
 // Measures how long it takes from the address to what one came for, in a browser that knows nothing yet:
 //
-//   STEERSTAT=build/ci/steerstat node measure.mjs
+//   tests/page/run measure.mjs
 //
 // a list of 200 studies, and a study of a million trials, whose view is made when it is first asked for. On an idle
 // machine; nothing here fails for being slow.

@@ -1,21 +1,20 @@
 // Takes a picture of every view in light and dark, 1280 x 720 and 390 pixels wide, of the real service's own studies:
 //
-//   STEERSTAT=build/ci/steerstat node screenshots.mjs DIRECTORY [--vision DEFICIENCY] [PART-OF-A-NAME...]
+//   tests/page/run screenshots.mjs DIRECTORY [--vision DEFICIENCY] [PART-OF-A-NAME...]
 //
 // Whoever changes the page opens them. A picture is the whole length of its view, and named VIEW-THEME-WIDTH.png. With
 // --vision protanopia, deuteranopia, tritanopia or achromatopsia it is what readers with that colour vision see.
-import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { dirname, join } from "node:path";
-import { fileURLToPath, pathToFileURL } from "node:url";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
 import { parseArgs } from "node:util";
 import { launch, openPage } from "./browser.mjs";
 import { Service, runProgramBeside } from "./service.mjs";
+import { shipped } from "./shipped.mjs";
 
 const { values: { vision }, positionals: [directory, ...wanted] } = parseArgs({ allowPositionals: true, options: { vision: { type: "string", default: "none" } } });
-if (!directory) throw new Error("say where the pictures go: node screenshots.mjs DIRECTORY [--vision DEFICIENCY] [PART-OF-A-NAME...]");
-const specs = process.env.SPECS ?? join(dirname(fileURLToPath(import.meta.url)), "../../studies/specs");
-const shipped = (name) => JSON.parse(readFileSync(join(specs, `${name}.json`), "utf8"));
+if (!directory) throw new Error("say where the pictures go: tests/page/run screenshots.mjs DIRECTORY [--vision DEFICIENCY] [PART-OF-A-NAME...]");
 const trials = (spec, count) => ({ ...spec, sampling: { ...spec.sampling, trials: count } });
 
 const combined = shipped("robustness/combined");

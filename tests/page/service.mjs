@@ -5,7 +5,7 @@ import { createInterface } from "node:readline";
 import { promisify } from "node:util";
 import { relayTo } from "./relay.mjs";
 
-const program = process.env.STEERSTAT ?? "build/ci/steerstat";
+const program = process.env.STEERSTAT;
 
 export class Service {
   #process = null;
