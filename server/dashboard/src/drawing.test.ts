@@ -24,6 +24,11 @@ describe("log axes", () => {
     expect(logSplits(25, 420)).toEqual([30, 40, 50, 60, 70, 80, 90, 100, 200, 300, 400]);
     expect(logSplits(0.0018, 0.0031)).toEqual([0.002, 0.003]);
   });
+  it("have powers of ten alone where there are many, and no more than have room", () => {
+    expect(logSplits(0.5, 2e6)).toEqual([1, 10, 100, 1e3, 1e4, 1e5, 1e6]);
+    expect(logSplits(0.05, 2e8, 5)).toEqual([0.1, 1, 10, 100, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8].filter((_, k) => k % 2 === 1));
+    expect(logSplits(0.05, 2e14, 1e9).length).toBe(16);
+  });
   it("name powers of ten, and 2 and 5 times them where there are too few", () => {
     expect(logTickTexts(logSplits(8, 120)).filter((text) => text !== "")).toEqual(["10", "100"]);
     expect(logTickTexts(logSplits(25, 420)).filter((text) => text !== "")).toEqual(["50", "100", "200"]);

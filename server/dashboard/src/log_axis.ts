@@ -1,11 +1,21 @@
 // Where a log axis has ticks, and which of them are named.
 import { number, powerOfTen } from "./numbers";
 
-/** 1 to 9 times each power of ten between two positive numbers. */
-export function logSplits(low: number, high: number): number[] {
+/** Beyond so many decades, lines between powers of ten would be a grey wall. */
+const finest = 5;
+
+/**
+ * 1 to 9 times each power of ten between two positive numbers; of many decades the powers alone, every second or third
+ * of them where no more have room.
+ */
+export function logSplits(low: number, high: number, room = Infinity): number[] {
+  const decades = Math.log10(high / low);
+  const digits = decades <= finest ? [1, 2, 3, 4, 5, 6, 7, 8, 9] : [1];
+  const stride = decades <= finest ? 1 : Math.max(1, Math.ceil(decades / Math.max(1, room)));
   const splits: number[] = [];
   for (let power = Math.floor(Math.log10(low)); power <= Math.log10(high); ++power) {
-    for (let digit = 1; digit <= 9; ++digit) {
+    if (power % stride !== 0) continue;
+    for (const digit of digits) {
       const value = Number(`${digit}e${power}`);
       if (value >= low && value <= high) splits.push(value);
     }

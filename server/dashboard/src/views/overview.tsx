@@ -81,7 +81,7 @@ function Distributions({ view }: { view: StudyView }) {
     <Card
       title="Distribution"
       actions={<Select label="Metric" isHidden value={distribution.metric} options={view.distributions.map((each) => ({ value: each.metric, text: metricName(each.metric) }))} onChange={setMetric} />}
-      note={`${whose[0]?.toUpperCase()}${whose.slice(1)} of the ${count(trials)} trials that have one. ${band && band.half_width < 1 ? `The whole curve lies within ± ${percent(band.half_width)} at level ${number(100 * band.level)} %.` : distribution.band_note ? `No band: ${distribution.band_note}.` : ""}`}
+      note={`${whose[0]?.toUpperCase()}${whose.slice(1)} of the ${count(trials)} trials that have one. ${band && band.half_width < 1 ? `The whole curve lies within ± ${percent(band.half_width)} at level ${number(100 * band.level)}\u00a0%.` : distribution.band_note ? `No band: ${distribution.band_note}.` : ""}`}
     >
       <DistributionPlot distribution={distribution} height={248} />
     </Card>
