@@ -1,5 +1,5 @@
 // The lockstep engine for trials with imperfections on one instruction set. Included once by a source compiled for it,
-// after the lanes; see core/instruction_set.hpp.
+// after the lanes and the packed engine; see core/instruction_set.hpp.
 
 namespace steerstat::STEERSTAT_ISA {
 

@@ -1,4 +1,4 @@
-// The lockstep engine on one instruction set. Included once by a source compiled for it, after the guards; see
+// The lockstep engine on one instruction set. Included once by a source compiled for it, after the packed engine; see
 // core/instruction_set.hpp.
 
 namespace steerstat::STEERSTAT_ISA {

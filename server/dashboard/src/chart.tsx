@@ -145,7 +145,11 @@ function widest(u: uPlot, texts: readonly (string | null)[]): number {
 export const percentTicks = (values: number[]) => values.map((value) => (value === null ? "" : `${number(100 * value, 3)} %`));
 
 /** The ticks of a log axis. */
-export const logTicks: AxisOptions = { splits: (u, k, low, high) => logSplits(low, high, u.axes[k]?.side === 2 ? u.width / 56 : u.height / 28), filter: (_u, splits) => splits, values: logTickTexts };
+export const logTicks = (side: "bottom" | "left"): AxisOptions => ({
+  splits: (u, _axis, low, high) => logSplits(low, high, side === "bottom" ? u.width / 56 : u.height / 28),
+  filter: (_u, splits) => splits,
+  values: logTickTexts,
+});
 
 /** Pixels of the canvas to one of the page. */
 export const ratio = () => devicePixelRatio;

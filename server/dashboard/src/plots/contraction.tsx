@@ -35,7 +35,7 @@ export function ContractionPlot({ contraction, of, height }: { contraction: Cont
         scales: { x: { time: false, range: [-0.2, size + 0.2] }, y: { distr: 3, range } },
         axes: [
           axis(palette, "bottom", { label: "contraction cycle", grid: false, values: (ticks) => ticks.map((tick) => (Number.isInteger(tick) ? String(tick) : "")) }),
-          axis(palette, "left", { label: `${name} [${unit}]`, size: 54, ...logTicks }),
+          axis(palette, "left", { label: `${name} [${unit}]`, size: 54, ...logTicks("left") }),
         ],
         series: [{}, { stroke: "transparent", points: { show: false } }],
         hooks: {

@@ -37,7 +37,7 @@ export function DistributionPlot({ distribution, height = 260 }: { distribution:
         legend: { show: false },
         cursor: { drag: { x: false, y: false }, points: { show: false } },
         scales: { x: { time: false, distr: isLog ? 3 : 1 }, y: { range: [0, 1] } },
-        axes: [axis(palette, "bottom", { label: axisLabel(name, unit), ...(isLog ? logTicks : {}) }), axis(palette, "left", { label: "share of trials", values: percentTicks })],
+        axes: [axis(palette, "bottom", { label: axisLabel(name, unit), ...(isLog ? logTicks("bottom") : {}) }), axis(palette, "left", { label: "share of trials", values: percentTicks })],
         bands: band ? [{ series: [1, 2], fill: faded(palette.accent, 0.18) }] : [],
         series: [
           {},

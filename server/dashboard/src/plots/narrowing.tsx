@@ -21,7 +21,7 @@ export function Narrowing({ view }: { view: StudyView }) {
         cursor: { drag: { x: false, y: false }, points: { show: false } },
         scales: { x: { time: false, distr: isLog ? 3 : 1, range: [narrowing.trials[0] ?? 1, Math.max(2, narrowing.trials[last] ?? 2)] }, y: { range: [0, 1] } },
         axes: [
-          axis(palette, "bottom", { label: "trials", ...(isLog ? logTicks : {}) }),
+          axis(palette, "bottom", { label: "trials", ...(isLog ? logTicks("bottom") : {}) }),
           axis(palette, "left", { label: "success rate", values: percentTicks }),
         ],
         bands: [{ series: [1, 2], fill: faded(palette.accent, 0.2) }],
