@@ -53,7 +53,7 @@ void secure_standard_streams() {
       if (open("/dev/null", descriptor == 0 ? O_WRONLY : O_RDONLY) != descriptor) std::_Exit(4);
     }
   }
-  std::signal(SIGPIPE, SIG_IGN);
+  static_cast<void>(std::signal(SIGPIPE, SIG_IGN));  // fails for no signal that there is
 }
 
 void mute_standard_streams() {

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t largest_text = std::size_t{64} << 20;
 
 struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
+  void operator()(std::FILE* file) const { static_cast<void>(std::fclose(file)); }  // it was read from
 };
 
 std::string reason_of(int error) {

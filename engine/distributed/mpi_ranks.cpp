@@ -75,7 +75,8 @@ class MpiRanks final : public Ranks {
 std::optional<int> rank_in_environment() {
   // Open MPI's mpirun sets both, srun --mpi=pmix the second. Only these start processes that find each other.
   for (const char* name : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK"}) {
-    if (const char* const rank = std::getenv(name)) return std::atoi(rank);  // NOLINT(concurrency-mt-unsafe)
+    const char* const rank = std::getenv(name);  // NOLINT(concurrency-mt-unsafe)
+    if (rank != nullptr) return static_cast<int>(std::strtol(rank, nullptr, 10));
   }
   return std::nullopt;
 }

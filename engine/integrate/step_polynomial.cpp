@@ -42,10 +42,10 @@ std::size_t active_guard(const StepPolynomial& step, double q1_goal, const Phase
 /// ceiling^2 - a^2, which has the signs of the guard of |a|.
 std::size_t ceiling_guard(const StepPolynomial& step, const ClosedLoop<double>& loop, const Phase& phase,
                           Coefficients& p) {
-  const auto [kp, kd] = align_gains(loop, phase);
+  const AlignGains<double> gains = align_gains(loop, phase);
   const auto a = [&](std::size_t k) {
     const State<double>& x = step.coefficients[k];
-    return k == 0 ? align_acceleration(loop, phase, x) : -(kp * x.q1 + kd * x.q1_dot);
+    return k == 0 ? align_acceleration(loop, phase, x) : -(gains.kp * x.q1 + gains.kd * x.q1_dot);
   };
   const auto square = [&](std::size_t i, std::size_t k) { return -(a(i) * a(k)); };
   return quadratic_guard(step, square, phase.ceiling * phase.ceiling, p);

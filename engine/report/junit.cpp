@@ -46,9 +46,8 @@ std::string escaped(std::string_view text) {
     const auto [length, code] = first_character(text);
     if (length == 0 || !is_xml(code)) {
       result += replacement;
-    } else if (code < 0x20) {
-      result += fmt::format("&#{};", static_cast<unsigned>(code));  // else an attribute would read it as a space
-    } else if (std::string_view("&<>\"'").find(text.front()) != std::string_view::npos) {
+    } else if (code < 0x20 || std::string_view("&<>\"'").find(text.front()) != std::string_view::npos) {
+      // Of a line's end and the like, too: else an attribute would read it as a space.
       result += fmt::format("&#{};", static_cast<unsigned>(code));
     } else {
       result += text.substr(0, length);

@@ -51,6 +51,7 @@ std::optional<Metric> find_output(std::string_view name) {
 
 std::vector<std::string_view> output_names() {
   std::vector<std::string_view> names;
+  names.reserve(std::size(outputs_of_all) + metrics().size());
   for (const Metric& output : outputs_of_all) names.push_back(output.name);
   for (const Metric& metric : metrics()) names.push_back(metric.name);
   return names;

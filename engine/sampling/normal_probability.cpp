@@ -83,7 +83,7 @@ double central(double z) {
 /// P(Z > z) = phi(z) / (z + 1/(z + 2/(z + 3/(z + ...)))), z >= 1; the terms below suffice there.
 double upper_tail(double z) {
   double fraction = z;
-  for (double k = 500.0; k >= 1.0; k -= 1.0) fraction = z + k / fraction;
+  for (int k = 500; k >= 1; --k) fraction = z + k / fraction;
   return density(z) / fraction;
 }
 

@@ -14,7 +14,10 @@ namespace {
 double stirling_remainder(double x) {
   // gamma(x + 1) = x gamma(x) carries x to where the asymptotic series [NIST 2010, 5.11.1] is right to 1e-14.
   double remainder = 0.0;
-  for (; x < 10.0; x += 1.0) remainder += (x + 0.5) * natural_log(1.0 + 1.0 / x) - 1.0;
+  while (x < 10.0) {
+    remainder += (x + 0.5) * natural_log(1.0 + 1.0 / x) - 1.0;
+    x += 1.0;
+  }
   const double r = 1.0 / (x * x);
   return remainder + (1.0 / 12 - r * (1.0 / 360 - r * (1.0 / 1260 - r * (1.0 / 1680 - r / 1188)))) / x;
 }

@@ -67,7 +67,8 @@ bool varies(std::span<const double> outputs, std::size_t width) {
 double mean_of_base(std::span<const double> outputs, std::size_t width) {
   double sum = 0.0;
   for (std::size_t i = 0; i < outputs.size(); i += width) sum += outputs[i] + outputs[i + 1];
-  return sum / (2.0 * static_cast<double>(outputs.size() / width));
+  const std::size_t rows = outputs.size() / width;
+  return sum / (2.0 * static_cast<double>(rows));
 }
 
 // (groups x sums): what resamples are made of.

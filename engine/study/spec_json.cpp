@@ -194,13 +194,13 @@ class Decoder {
       parameters.plant = study_.nominal;
       nominal = definition.field(parameters);
     }
-    auto value = decode_input(definition, nominal, reader);
+    const auto value = decode_input(definition, nominal, reader);
     if (!value) {
       mistaken_.emplace_back(definition.name);
       return;
     }
     for (Input& input : study_.inputs) {
-      if (input.name == definition.name) input.value = *std::move(value);
+      if (input.name == definition.name) input.value = *value;
     }
   }
 

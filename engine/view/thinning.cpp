@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <queue>
 
 namespace steerstat {
@@ -22,8 +23,8 @@ class Curves {
  public:
   Curves(std::span<const double> t, std::span<const std::vector<double>> columns) : t_(t), columns_(columns) {
     for (const std::vector<double>& column : columns) {
-      double low = INFINITY;
-      double high = -INFINITY;
+      double low = std::numeric_limits<double>::infinity();
+      double high = -low;
       for (const double y : column) {
         if (!std::isfinite(y)) continue;
         low = std::min(low, y);

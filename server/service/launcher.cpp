@@ -84,6 +84,7 @@ LaunchedProcess LaunchedProcess::launch(const std::vector<std::string>& command,
   std::vector<std::string> words{"sh", "-c", script, "sh", note.string()};
   words.insert(words.end(), command.begin(), command.end());
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   SpawnSettings settings;

@@ -250,7 +250,7 @@ void StudyHome::remove() const {
 }
 
 fs::path StudyHome::set_aside() const {
-  const fs::path name = unused_name(path_.parent_path() / (damaged_prefix + path_.filename().string()));
+  fs::path name = unused_name(path_.parent_path() / (damaged_prefix + path_.filename().string()));
   std::error_code error;
   fs::rename(path_, name, error);
   if (error) fail_at("rename", path_, error);

@@ -108,7 +108,7 @@ bool StudyRunner::begin_next() {
   Running& next = running_.emplace_back(Running{place->entry});
   queue_.erase(place);
   catalogue_.change(*next.entry, [&](StudyEntry& entry) {
-    entry.run.emplace();
+    entry.run = StudyEntry::Run{};
     entry.run->threads = threads_;
     if (!entry.record.started) entry.record.started = utc_now();
   });

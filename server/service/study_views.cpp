@@ -17,7 +17,7 @@ StudyViews::Text StudyViews::view(const std::string& id, std::uint64_t revision,
   const std::lock_guard making(making_);
   if (auto found = find(id, revision, is_running)) return found;  // made while this one waited
   const RefreshTimer timer;
-  const Text text = std::make_shared<const std::string>(make());
+  Text text = std::make_shared<const std::string>(make());
   const Clock::time_point due = timer.due();
   const std::lock_guard lock(mutex_);
   made_.remove_if([&](const Made& one) { return one.id == id; });

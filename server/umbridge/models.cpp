@@ -25,7 +25,7 @@ Json parsed(std::string_view body) {
 }
 
 Json config_of(const Json& request) {
-  const Json config = request.value("config", Json::object());
+  Json config = request.value("config", Json::object());
   // R writes an empty list so.
   if (config.is_null() || (config.is_array() && config.empty())) return Json::object();
   if (!config.is_object()) throw ModelRefusal(ModelRefusal::invalid_input, "config: expected an object");
