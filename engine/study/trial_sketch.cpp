@@ -74,7 +74,7 @@ void TrialSketch::add(const TrialSketch& other) {
   for (std::size_t i = 0; i < squares_.size(); ++i) squares_[i] += other.squares_[i];
 }
 
-TrialSketch TrialSketch::of(std::vector<TrialRange> trials, std::vector<Cell> cells,
+TrialSketch TrialSketch::of(const std::vector<TrialRange>& trials, std::vector<Cell> cells,
                             const std::array<std::uint64_t, status_names.size()>& squares) {
   TrialSketch sketch(0);
   sketch.cells_ = std::move(cells);

@@ -64,7 +64,7 @@ class TrialSketch {
   [[nodiscard]] const std::array<std::uint64_t, status_names.size()>& squares() const { return squares_; }
 
   /// What was stored. @throws std::invalid_argument where the parts do not go together
-  static TrialSketch of(std::vector<TrialRange> trials, std::vector<Cell> cells,
+  static TrialSketch of(const std::vector<TrialRange>& trials, std::vector<Cell> cells,
                         const std::array<std::uint64_t, status_names.size()>& squares);
 
   friend bool operator==(const TrialSketch&, const TrialSketch&) = default;

@@ -34,7 +34,7 @@ std::pair<std::string, std::string> ids_of(const StudyService& service, const st
       errors.push_back({found == document.end() ? "" : place, key + " is not the id of a study; give both a and b"});
       return "";
     }
-    const std::string value = found->get<std::string>();
+    std::string value = found->get<std::string>();
     if (!service.state(value)) errors.push_back({place, "there is no study " + quote(value)});
     return value;
   };
